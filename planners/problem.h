@@ -103,10 +103,9 @@ struct Result {
   Statistics statistics;
 };
 
-/// How to run: seed, threads, and a budget and a flag that end a long computation. Copies share the flag.
+/// How to run: seed, and a budget and a flag that end a long computation. Copies share the flag.
 struct RunOptions {
-  std::uint64_t seed = 1;                         ///< the same seed gives the same bytes for any number of threads
-  unsigned threads = 1;                           ///< at least 1
+  std::uint64_t seed = 1;                         ///< the same seed gives the same bytes
   const std::atomic<bool>* cancel = nullptr;      ///< another thread sets it to end the computation; not owned
   std::chrono::nanoseconds budget{0};             ///< 0: no limit. With a budget the answer depends on the machine
   std::function<void(double share)> progress;     ///< called now and then, on the planning thread; share in [0, 1]

@@ -219,7 +219,7 @@ std::size_t Swarm::step(unsigned threads) {
   return all.moved;
 }
 
-SwarmResult Swarm::run(const RunOptions& options, std::uint64_t max_ticks) {
+SwarmResult Swarm::run(const RunOptions& options, std::uint64_t max_ticks, unsigned threads) {
   SwarmResult result;
   result.arrived = arrived_;
   if (!ok_) return result;
@@ -227,7 +227,7 @@ SwarmResult Swarm::run(const RunOptions& options, std::uint64_t max_ticks) {
   const std::uint64_t patience = 3 * static_cast<std::uint64_t>(grid_->width() + grid_->height());
   std::uint64_t idle = 0;
   while (arrived_ < slots_.size() && idle < patience && result.ticks < max_ticks && !watch.stopped_now()) {
-    idle = step(options.threads) == 0 ? idle + 1 : 0;
+    idle = step(threads) == 0 ? idle + 1 : 0;
     ++result.ticks;
     if (arrived_ > result.arrived) result.makespan = result.ticks;
     result.flowtime += result.ticks * (arrived_ - result.arrived);

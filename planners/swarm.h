@@ -52,7 +52,7 @@ class Swarm {
   std::size_t step(unsigned threads = 1);
 
   /// Runs ticks until all robots have arrived, none moves any more, or `max_ticks` is reached.
-  [[nodiscard]] SwarmResult run(const RunOptions& options, std::uint64_t max_ticks);
+  [[nodiscard]] SwarmResult run(const RunOptions& options, std::uint64_t max_ticks, unsigned threads = 1);
 
   /// The robots' cells, by number of the robot.
   [[nodiscard]] std::vector<Cell> cells() const;

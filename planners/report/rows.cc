@@ -58,7 +58,6 @@ std::vector<Answer> answer_rows(const Method& method, const Grid& grid, const st
   on_threads(threads, stop, [&](unsigned thread) {
     for (std::size_t i = next++; i < rows.size() && !stop; i = next++) {
       RunOptions own = run;
-      own.threads = 1;
       own.seed = run.seed + i;
       own.progress = {};
       answers[i] = answer_row(method, grid, rows[i], own);

@@ -41,7 +41,6 @@ struct Work {
   [[nodiscard]] plans::RunOptions run() const {
     plans::RunOptions run;
     run.seed = options.seed;
-    run.threads = threads();
     if (const auto us = trace::parse_duration(options.budget)) run.budget = std::chrono::microseconds(*us);
     return run;
   }
@@ -222,7 +221,7 @@ Run setup_plan(CLI::App& app) {
   auto* csv = app.add_option("--csv", options->csv, "Write each point of the path to this file, or with --scen the result of each row")->type_name("FILE");
   app.add_flag("--times", options->times, "With --scen: also print the median time of a row, which differs between machines")->needs(scen);
   app.add_option("--seed", options->seed, "The seed of the methods that use random numbers")->type_name("N")->transform(is_whole_number("seed"))->capture_default_str();
-  app.add_option("--threads", options->threads, "How many threads to use (all cores); the answers do not depend on it")->transform(is_count(1, 1024));
+  app.add_option("--threads", options->threads, "How many threads share the rows of --scen (all cores); the answers do not depend on it")->transform(is_count(1, 1024));
   app.add_option("--budget", options->budget, "How long a method may take for one path, such as 500ms; astar, neural, fairway and fairway-bug may take longer")->type_name("TIME")->check(is_duration());
   refuse_shared_standard_output(app, {svg, csv});
   for (CLI::Option* const with_a_map : {from, to, scen, svg, csv}) list->excludes(with_a_map);
