@@ -58,8 +58,9 @@ struct TimedQuestion;
 class Movers;
 /// Walks up the neural map with a layer of neurons for each time step: y(i, t) = max_j gamma w_ij y(j, t + 1). A wait counts as a link of
 /// length 1, blocked neurons and reserved links are 0, and the goal is 1 from its earliest arrival on. What is computed is -ln y with
-/// gamma = gamma*, the length of the shortest walk with each wait counted as 1. One sweep back in time gives the equilibrium. `to_goal` is
-/// `steps_to` of the goal. Empty if there is no walk. O(cells * horizon).
+/// gamma = gamma*, the length of the shortest walk with each wait counted as 1. One sweep back in time gives the equilibrium. That walk is the
+/// shortest of those that take at most 8 steps more than the robot alone would, or, if there is none, 32, 128, ... up to the horizon. `to_goal`
+/// is `steps_to` of the goal. Empty if there is no walk. O(cells * horizon).
 [[nodiscard]] std::vector<Cell> plan_timed_field(const Grid& grid, const Movers& movers, const TimedQuestion& question,
                                                  const std::vector<std::uint32_t>& to_goal);
 

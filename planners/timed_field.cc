@@ -84,7 +84,7 @@ std::vector<Cell> plan_timed_field(const Grid& grid, const Movers& movers, const
                                    const std::vector<std::uint32_t>& to_goal) {
   const auto from_start = steps_to(grid, question.from);
   const std::uint32_t least = to_goal[grid.index(question.from)];
-  if (least == kNoWay || least > question.horizon) return {};
+  if (least == kNoWay || std::max(least, question.earliest_arrival) > question.horizon) return {};
   // For most robots a short horizon is enough. A longer one might hold a shorter walk that takes more steps, but it costs more time.
   for (std::uint32_t slack = 8;; slack *= 4) {
     const std::uint32_t horizon = std::min(question.horizon, std::max(least, question.earliest_arrival) + slack);

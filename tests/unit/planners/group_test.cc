@@ -181,22 +181,73 @@ TEST(CountConflicts, sees_meetings_exchanges_and_crossings) {
   EXPECT_EQ(count_conflicts(grid, {{{0, 0}}, {{2, 0}, {1, 0}, {0, 0}}}), 1u);   // robots stay at their goals
 }
 
-// The walk up the unrolled neural map is a shortest one, with each wait counted as 1.
-TEST(TimedField, arrives_no_later_than_its_horizon_and_spares_movers) {
+// The length of the shortest walk of at most `horizon` steps with each wait counted as 1, by the plainest search: the least cost of being in
+// each cell after each step. Infinite if there is none.
+double least_cost(const Grid& grid, const Movers& movers, const TimedQuestion& question, std::uint32_t horizon) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  std::vector<double> now(grid.size(), kNever);
+  now[grid.index(question.from)] = 0.0;
+  double least = kNever;
+  for (std::uint32_t t = 0;; ++t) {
+    if (t >= question.earliest_arrival) least = std::min(least, now[grid.index(question.to)]);
+    if (t == horizon) return least;
+    std::vector<double> next(grid.size(), kNever);
+    for (CellIndex at = 0; at < grid.size(); ++at) {
+      if (now[at] == kNever) continue;
+      const Cell here = grid.cell(at);
+      const auto come = [&](Cell there, double cost) {
+        if (!movers.taken(there, t + 1)) next[grid.index(there)] = std::min(next[grid.index(there)], now[at] + cost);
+      };
+      come(here, 1.0);
+      for (std::size_t k = 0; k < 8; ++k) {
+        const Cell there = here + kDirections[k];
+        if (grid.can_move(here, static_cast<int>(k)) && !movers.swaps(here, there, t)) come(there, kMoveLengths[k]);
+      }
+    }
+    now = std::move(next);
+  }
+}
+
+double cost_of(const std::vector<Cell>& walk) {
+  double cost = 0.0;
+  for (std::size_t i = 1; i < walk.size(); ++i) {
+    const int k = direction_between(walk[i - 1], walk[i]);
+    cost += k < 0 ? 1.0 : kMoveLengths[static_cast<std::size_t>(k)];
+  }
+  return cost;
+}
+
+// With time to spare, with just enough, and with one step too few.
+TEST(TimedField, makes_the_shortest_walk_that_its_horizon_allows) {
+  int longer_than_alone = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const Grid grid = testing::random_grid(16, 12, 0.15, seed);
     const Cell from{0, 0}, to{15, 11};
     if (grid.blocked(from) || grid.blocked(to)) continue;
-    const Movers movers = testing::make_patrols(grid, 8, 24, from, seed);
-    const TimedQuestion question{.from = from, .to = to, .horizon = 200};
-    const auto reference = search_space_time(grid, movers, question, steps_to(grid, to));
-    const auto walk = plan_timed_field(grid, movers, question, steps_to(grid, to));
-    ASSERT_EQ(walk.empty(), reference.empty()) << "seed " << seed;
-    if (walk.empty()) continue;
-    EXPECT_FALSE(check_walk(grid, &movers, walk)) << "seed " << seed;
-    EXPECT_EQ(walk.back(), to);
-    EXPECT_GE(walk.size(), reference.size());
+    const auto to_goal = steps_to(grid, to);
+    if (to_goal[grid.index(from)] == kNoWay) continue;
+    const Movers movers = testing::make_patrols(grid, 24, 24, from, seed);
+    TimedQuestion question{.from = from, .to = to, .earliest_arrival = seed % 3 == 0 ? 20u : 0u, .horizon = 200};
+    const auto earliest = search_space_time(grid, movers, question, to_goal);
+    ASSERT_FALSE(earliest.empty()) << "seed " << seed;
+    const auto arrival = static_cast<std::uint32_t>(earliest.size() - 1);
+    const std::uint32_t alone = std::max(to_goal[grid.index(from)], question.earliest_arrival);
+    longer_than_alone += arrival > alone ? 1 : 0;
+    for (const std::uint32_t horizon : {arrival, alone + 8}) {
+      if (horizon < arrival) continue;
+      question.horizon = horizon;
+      const auto walk = plan_timed_field(grid, movers, question, to_goal);
+      ASSERT_FALSE(walk.empty()) << "seed " << seed;
+      EXPECT_FALSE(check_walk(grid, &movers, walk)) << "seed " << seed;
+      EXPECT_EQ(walk.back(), to);
+      EXPECT_LE(walk.size(), horizon + 1);
+      EXPECT_GE(walk.size(), earliest.size());
+      EXPECT_NEAR(cost_of(walk), least_cost(grid, movers, question, horizon), 1e-4) << "seed " << seed << " horizon " << horizon;
+    }
+    question.horizon = arrival - 1;
+    EXPECT_TRUE(plan_timed_field(grid, movers, question, to_goal).empty()) << "seed " << seed;
   }
+  EXPECT_GT(longer_than_alone, 5);
 }
 
 }  // namespace
