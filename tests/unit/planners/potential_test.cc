@@ -115,7 +115,6 @@ TEST(Potential, has_the_force_as_its_gradient) {
       PotentialParameters parameters = parameters_of(attraction);
       parameters.goal_scaled = scaled;
       const PotentialField field(shapes, {0.5, 0.5}, 1.0, parameters);
-      int tested = 0;
       for (int i = 0; i < 400; ++i) {
         const Point q{random(), random()};
         if (field.nearest(q).distance_m < 0.2 || distance(q, {0.5, 0.5}) < 0.1) continue;
@@ -123,10 +122,8 @@ TEST(Potential, has_the_force_as_its_gradient) {
         const Point slope{(field.potential(q + Point{h, 0}) - field.potential(q - Point{h, 0})) / (2 * h),
                           (field.potential(q + Point{0, h}) - field.potential(q - Point{0, h})) / (2 * h)};
         const Point force = field.force(q);
-        if (norm(slope + force) > 1e-4 * (1.0 + norm(force))) continue;   // on a medial axis, or at the edge of the zone
-        ++tested;
+        EXPECT_LT(norm(slope + force), 1e-4 * (1.0 + norm(force))) << q.x << ", " << q.y;
       }
-      EXPECT_GT(tested, 300);
     }
   }
 }
@@ -148,17 +145,27 @@ TEST(Potential, of_both_kinds_is_joined_without_a_jump) {
   EXPECT_GT(std::abs(printed.potential({2.0 - 1e-9, 0.0}) - printed.potential({2.0 + 1e-9, 0.0})), 0.9) << "as printed";
 }
 
+// v^2/2 + U at every step, past a disc that pushes the mass off its straight way.
 TEST(Potential, without_friction_keeps_its_energy) {
-  // v^2/2 + U over 10,000 steps.
-  const ShapeClearance nothing;
-  const PotentialField field(nothing, {}, 1.0, parameters_of(Attraction::kParabolic));
-  Point q{3.0, 1.0}, v{0.0, 0.5};
-  const double dt = 1e-3, before = 0.5 * dot(v, v) + field.potential(q);
-  for (int i = 0; i < 10000; ++i) {
-    v = v + dt * field.force(q);
-    q = q + dt * v;
+  ShapeClearance disc;
+  disc.add_disc({1.5, 0.0}, 0.3);
+  Problem problem;
+  problem.grid = &space();
+  problem.start = {3.0, 1.0};
+  problem.goal_tolerance_cells = 0.05;
+  const PotentialField field(disc, problem.goal, 1.0, parameters_of(Attraction::kParabolic));
+  DriveParameters how = fine();
+  how.drive = Drive::kDynamic;
+  how.damping = 0.0;
+  how.max_steps = 10'000;
+  const Result result = drive_by_potential(field, problem, how, {});
+  ASSERT_GT(result.path.size(), 1000u);
+  const double before = field.potential(problem.start);
+  for (std::size_t i = 1; i < result.path.size(); ++i) {
+    const Point &from = result.path[i - 1], &to = result.path[i];
+    const double speed = distance(from, to) / (result.times_s[i] - result.times_s[i - 1]);   // in the middle of the step
+    ASSERT_NEAR((0.5 * speed * speed + 0.5 * (field.potential(from) + field.potential(to))) / before, 1.0, 1e-3) << "step " << i;
   }
-  EXPECT_NEAR((0.5 * dot(v, v) + field.potential(q)) / before, 1.0, 1e-3);
 }
 
 TEST(GridClearance, is_the_distance_to_the_nearest_square) {

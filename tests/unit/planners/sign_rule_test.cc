@@ -1,12 +1,12 @@
 // The sign rule of Filimonov and Filimonov: our form of it against the printed one, and what it brings.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <optional>
 #include <random>
 
 #include "planners/bug.h"
 #include "planners/bug_run.h"
+#include "planners/report/rows.h"
 #include "tests/unit/planners/planning.h"
 #include "tests/unit/planners/separate_obstacles.h"
 #include "tests/unit/stride.h"
@@ -81,11 +81,6 @@ TEST(SignRule, is_the_question_whether_the_line_runs_into_a_followed_wall) {
   EXPECT_GT(permitted, 2000);
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 void expect_shorter_than_bug2(const testing::SeparateObstacles& kind, double printed_at_most, double chosen_at_most) {
   std::vector<double> printed, chosen;
   for (std::uint64_t seed = 1; seed <= 1000; seed += kb::testing::stride()) {
@@ -100,13 +95,13 @@ void expect_shorter_than_bug2(const testing::SeparateObstacles& kind, double pri
     printed.push_back(literal.length_m / bug2_m);
     chosen.push_back(guarded.length_m / bug2_m);
   }
-  EXPECT_LE(median(printed), printed_at_most);
-  EXPECT_LE(median(chosen), chosen_at_most);
+  EXPECT_LE(percentile(printed, 50), printed_at_most);
+  EXPECT_LE(percentile(chosen, 50), chosen_at_most);
 }
 
-// Median over 2,000 worlds: the rule as printed (left hand) saves 12 and 17 %, with the hand chosen 20 and 30 %.
+// The medians over these 1,000 worlds: as printed (left hand) 0.860 and 0.841, with the hand chosen 0.775 and 0.711.
 TEST(SignRule, makes_paths_shorter_than_bug2_among_40_separate_obstacles) {
-  expect_shorter_than_bug2({100, 40, 4, 14}, 0.92, 0.85);
+  expect_shorter_than_bug2({100, 40, 4, 14}, 0.89, 0.80);
 }
 TEST(SignRule, makes_paths_shorter_than_bug2_among_150_separate_obstacles) {
   expect_shorter_than_bug2({100, 150, 2, 10}, 0.86, 0.75);

@@ -38,7 +38,7 @@ TEST(TwoMaps, tells_all_that_was_driven) {
   EXPECT_GT(many, 5u);
 }
 
-TEST(TwoMaps, says_unreachable_only_where_the_map_does) {
+TEST(TwoMaps, says_that_a_goal_that_is_walled_in_is_unreachable) {
   const std::vector<std::string_view> rows = {"............", "............", "...#####....", "...#...#....",
                                               "...#.G.#..S.", "...#...#....", "...#####....", "............",
                                               "............"};
