@@ -15,6 +15,9 @@
 // Isolines of the nearest distance are offset curves p = const. Two walls nearer than 2p merge and close the passage, so the method
 // starts with p = 1 cell and, if that fails, goes on from there with 0.5 and 0.3. The path contains all that is driven, since a robot
 // that knows only what is near cannot try beforehand which p will do.
+//
+// Knowledge: local range, but for one word of the answer. That all isolines are closed proves nothing about passages that are narrower than they,
+// so in the end a flood fill of the whole map says whether the answer is kUnreachable or kLimit. The path does not depend on it.
 #pragma once
 
 #include "planners/potential.h"
