@@ -99,6 +99,93 @@ class Diagnosis {
   Trap trap_;
 };
 
+// One drive, from the start to whatever ends it.
+class PotentialDrive {
+ public:
+  PotentialDrive(const PotentialField& field, const Problem& problem, const DriveParameters& how, const RunOptions& run)
+      : field_(field), problem_(problem), how_(how), watch_(run), cell_m_(problem.grid->cell_m()),
+        tolerance_m_(problem.goal_tolerance_cells * cell_m_), mover_(field, cell_m_, how),
+        diagnosis_(field, cell_m_, tolerance_m_, slides() ? how.mass : 0.0), at_(problem.start) {}
+
+  Result go() {
+    record();
+    std::optional<Outcome> outcome;
+    while (!outcome) outcome = advance();
+    result_.outcome = *outcome;
+    if (is_goal_repelled(field_, tolerance_m_)) result_.repelled_from_m = field_.nearest(problem_.goal).distance_m;
+    result_.length_m = length(result_.path);
+    result_.statistics.more.emplace_back("time s", time_s_);
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] bool slides() const { return how_.drive == Drive::kDynamic; }
+  [[nodiscard]] bool is_near() const { return distance(at_, problem_.goal) < tolerance_m_; }
+  // A mass with friction is at the goal when it is slow there; one without never rests.
+  [[nodiscard]] bool arrived() const { return is_near() && (!slides() || how_.damping <= 0.0 || mover_.speed() < 0.1); }
+
+  void record() {
+    result_.path.push_back(at_);
+    result_.times_s.push_back(time_s_);
+  }
+
+  // One step. How the drive ends, if it does.
+  std::optional<Outcome> advance() {
+    // Only a mass can be too fast to have arrived, and it is not caught there.
+    const bool near = is_near();
+    if (arrived()) return Outcome::kReached;
+    if (result_.statistics.steps++ >= how_.max_steps) return limit(Stop::kSteps);
+    if (watch_.stopped()) return limit(watch_.why());
+    double dt = 0.0;
+    Point next = mover_.step(at_, dt);
+    if (!slides()) {
+      const Point shorter = shorten_step(*problem_.grid, at_, next);
+      if (shorter != next) dt *= distance(at_, shorter) / distance(at_, next);
+      next = shorter;
+    }
+    if (!is_finite(next) || field_.nearest(next).distance_m <= 0.0 || check_path(*problem_.grid, {at_, next}, Touch::kApart)) {
+      return collide(is_finite(next), dt);
+    }
+    time_s_ += dt;
+    at_ = next;
+    record();
+    return near ? std::nullopt : diagnose(mover_.speed());
+  }
+
+  // A mass loses its speed, and the field pushes it off.
+  std::optional<Outcome> collide(bool finite, double dt) {
+    if (!slides() || !finite) {
+      result_.refused = "a step led into an obstacle";
+      return Outcome::kNumeric;
+    }
+    mover_.stop();
+    time_s_ += dt;
+    return diagnose(0.0);
+  }
+
+  std::optional<Outcome> diagnose(double speed) {
+    if (!how_.diagnose || !diagnosis_.add(at_, speed, mover_.pull(at_), time_s_)) return std::nullopt;
+    result_.trap = diagnosis_.trap();
+    return Outcome::kTrapped;
+  }
+
+  Outcome limit(Stop stop) {
+    result_.statistics.stop = stop;
+    return Outcome::kLimit;
+  }
+
+  const PotentialField& field_;
+  const Problem& problem_;
+  const DriveParameters& how_;
+  Watch watch_;
+  double cell_m_, tolerance_m_;
+  Mover mover_;
+  Diagnosis diagnosis_;
+  Point at_;
+  double time_s_ = 0.0;
+  Result result_;
+};
+
 // Everything that a method with a field owns.
 struct World {
   GridClearance clearance;
@@ -153,65 +240,7 @@ std::optional<Result> refuse_start_on_rim(const Problem& problem) {
 Result drive_by_potential(const PotentialField& field, const Problem& problem, const DriveParameters& how,
                           const RunOptions& run) {
   if (auto refused = refuse_start_on_rim(problem)) return *std::move(refused);
-  Result result = ended(Outcome::kLimit);
-  Watch watch(run);
-  const double cell_m = problem.grid->cell_m(), tolerance_m = problem.goal_tolerance_cells * cell_m;
-  Mover mover(field, cell_m, how);
-  Diagnosis diagnosis(field, cell_m, tolerance_m, how.drive == Drive::kDynamic ? how.mass : 0.0);
-  Point at = problem.start;
-  double time_s = 0.0, dt = 0.0;
-  result.path.push_back(at);
-  result.times_s.push_back(0.0);
-  const bool rests = how.drive == Drive::kKinematic || how.damping > 0.0;
-  while (true) {
-    const bool near = distance(at, problem.goal) < tolerance_m;
-    if (near && (how.drive == Drive::kKinematic || !rests || mover.speed() < 0.1)) {
-      result.outcome = Outcome::kReached;
-      break;
-    }
-    if (result.statistics.steps++ >= how.max_steps) {
-      result.statistics.stop = Stop::kSteps;
-      break;
-    }
-    if (watch.stopped()) {
-      result.statistics.stop = watch.why();
-      break;
-    }
-    Point next = mover.step(at, dt);
-    if (how.drive == Drive::kKinematic) {
-      const Point shorter = shorten_step(*problem.grid, at, next);
-      if (shorter != next) dt *= distance(at, shorter) / distance(at, next);
-      next = shorter;
-    }
-    if (!is_finite(next) || field.nearest(next).distance_m <= 0.0 || check_path(*problem.grid, {at, next}, Touch::kApart)) {
-      if (how.drive == Drive::kDynamic && is_finite(next)) {   // a collision: the mass loses its speed, and the field pushes it off
-        mover.stop();
-        time_s += dt;
-        if (how.diagnose && diagnosis.add(at, 0.0, mover.pull(at), time_s)) {
-          result.outcome = Outcome::kTrapped;
-          result.trap = diagnosis.trap();
-          break;
-        }
-        continue;
-      }
-      result.outcome = Outcome::kNumeric;
-      result.refused = "a step led into an obstacle";
-      break;
-    }
-    time_s += dt;
-    at = next;
-    result.path.push_back(at);
-    result.times_s.push_back(time_s);
-    if (how.diagnose && !near && diagnosis.add(at, mover.speed(), mover.pull(at), time_s)) {
-      result.outcome = Outcome::kTrapped;
-      result.trap = diagnosis.trap();
-      break;
-    }
-  }
-  if (is_goal_repelled(field, tolerance_m)) result.repelled_from_m = field.nearest(problem.goal).distance_m;
-  result.length_m = length(result.path);
-  result.statistics.more.emplace_back("time s", time_s);
-  return result;
+  return PotentialDrive(field, problem, how, run).go();
 }
 
 // ---- the methods

@@ -25,7 +25,8 @@ bool TrapDetector::at_rest(Point at, double speed, double pull, double time_s) {
   return true;
 }
 
-bool TrapDetector::in_a_box(Point at, double time_s) {
+// Takes a place into the window, and those out of it that lie more than its length behind. True if the window is full.
+bool TrapDetector::remember(Point at) {
   const std::size_t number = first_ + window_.size();
   Sample sample{at, at, 0.0, false};
   if (!window_.empty()) {
@@ -41,9 +42,8 @@ bool TrapDetector::in_a_box(Point at, double time_s) {
     while (!extremes_[i].empty() && extremes_[i].back().second <= keys[i]) extremes_[i].pop_back();
     extremes_[i].emplace_back(number, keys[i]);
   }
-  const double length_m = kWindow_cells * cell_m_;
   bool full = false;
-  while (window_.back().way_m - window_.front().way_m > length_m) {
+  while (window_.back().way_m - window_.front().way_m > kWindow_cells * cell_m_) {
     full = true;
     turns_ -= window_.front().turns_back ? 1 : 0;
     window_.pop_front();
@@ -52,17 +52,24 @@ bool TrapDetector::in_a_box(Point at, double time_s) {
   for (auto& extreme : extremes_) {
     while (extreme.front().first < first_) extreme.pop_front();
   }
-  if (!full) return false;
-  const double w = extremes_[0].front().second + extremes_[1].front().second;
-  const double h = extremes_[2].front().second + extremes_[3].front().second;
-  if (std::hypot(w, h) >= kBox_cells * cell_m_) return false;
-  // A robot that is pressed against a wall may zigzag along it in small steps and still get on: then the mean of its places
-  // moves from the first half of the window to the second.
+  return full;
+}
+
+// A robot that is pressed against a wall may zigzag along it in small steps and still get on: then the mean of its places
+// moves from the first half of the window to the second.
+bool TrapDetector::gets_on() const {
   const std::size_t half = window_.size() / 2;
   const Point zero = window_.front().sum, middle = window_[half].sum, all = window_.back().sum;
   const Point early = (1.0 / static_cast<double>(half)) * (middle - zero);
   const Point late = (1.0 / static_cast<double>(window_.size() - 1 - half)) * (all - middle);
-  if (distance(early, late) > kDrift_cells * cell_m_) return false;
+  return distance(early, late) > kDrift_cells * cell_m_;
+}
+
+bool TrapDetector::in_a_box(Point at, double time_s) {
+  if (!remember(at)) return false;
+  const double w = extremes_[0].front().second + extremes_[1].front().second;
+  const double h = extremes_[2].front().second + extremes_[3].front().second;
+  if (std::hypot(w, h) >= kBox_cells * cell_m_ || gets_on()) return false;
   const bool chatters = 3 * turns_ > window_.size();
   trap_ = {chatters ? Trap::Kind::kChatter : Trap::Kind::kCycle, at, time_s};
   return true;

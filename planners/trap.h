@@ -32,6 +32,8 @@ class TrapDetector {
   };
   [[nodiscard]] bool at_rest(Point at, double speed, double pull, double time_s);
   [[nodiscard]] bool in_a_box(Point at, double time_s);
+  [[nodiscard]] bool remember(Point at);
+  [[nodiscard]] bool gets_on() const;
 
   static constexpr double kSlow = 0.02;           // rest: slower than this share of the pull
   static constexpr double kHold_s = 0.5;          // ... for this long, times the side of a cell in m, while the speed falls to a tenth
