@@ -6,8 +6,6 @@
 namespace kb::planners {
 namespace {
 
-__extension__ using Wide = __int128;
-
 constexpr std::int32_t sign(std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 /// The cell next to an even coordinate in a direction (even ones are borders of cells), or the cell in which an odd coordinate lies.
 constexpr std::int32_t cell_towards(std::int32_t at, std::int32_t direction) {
@@ -24,7 +22,6 @@ Point to_point(const Grid& grid, const Place& place) {
           grid.origin_m().y + half_m * (static_cast<double>(place.y) / w)};
 }
 
-// Places lie on lines between nodes, so w is less than 2^17 and x, y less than 2^34: squares and products need 100 bits.
 bool is_nearer(const Place& a, const Place& b, Node goal) {
   const auto squared = [goal](const Place& p) {
     const Wide dx = p.x - goal.x * p.w, dy = p.y - goal.y * p.w;

@@ -30,6 +30,8 @@ struct Place {
   std::int64_t x = 0, y = 0, w = 1;
   friend bool operator==(const Place& a, const Place& b) { return a.x * b.w == b.x * a.w && a.y * b.w == b.y * a.w; }
 };
+/// For products of coordinates of places, which need up to 100 bits: on a line between nodes w is less than 2^17, and x, y less than 2^34.
+__extension__ using Wide = __int128;
 [[nodiscard]] inline Place place(Node node) { return {node.x, node.y, 1}; }
 [[nodiscard]] Point to_point(const Grid& grid, const Place& place);
 

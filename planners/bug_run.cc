@@ -6,8 +6,6 @@
 namespace kb::planners {
 namespace {
 
-__extension__ using Wide = __int128;
-
 // Whether c lies straight on behind b, seen from a.
 bool is_straight(const Place& a, const Place& b, const Place& c) {
   const Wide ux = Wide{b.x} * a.w - Wide{a.x} * b.w, uy = Wide{b.y} * a.w - Wide{a.y} * b.w;

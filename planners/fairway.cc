@@ -48,8 +48,8 @@ std::uint8_t steepest(const Grid& grid, const std::vector<float>& u, CellIndex a
 
 std::vector<float> cell_potential(const Grid& grid, Cell goal) {
   constexpr PotentialParameters parameters;
-  const auto zone = static_cast<float>(parameters.zone_cells), balance = static_cast<float>(parameters.balance_cells);
-  const float k_r = balance * balance / (1.0f / balance - 1.0f / zone);
+  const auto zone = static_cast<float>(parameters.zone_cells);
+  const float k_r = repelling_gain(static_cast<float>(parameters.balance_cells), zone);
   std::vector<float> u = chamfer(grid, zone + 1.0f);
   for (std::int32_t y = 0; y < grid.height(); ++y) {
     for (std::int32_t x = 0; x < grid.width(); ++x) {
@@ -58,9 +58,7 @@ std::vector<float> cell_potential(const Grid& grid, Cell goal) {
       const float p = value - 0.5f;   // to the edge of the blocked cell
       const auto dx = static_cast<float>(x - goal.x), dy = static_cast<float>(y - goal.y);
       value = static_cast<float>(parameters.gain) * std::sqrt(dx * dx + dy * dy);
-      if (p >= zone) continue;
-      const float push = 1.0f / p - 1.0f / zone;
-      value += 0.5f * k_r * push * push;
+      if (p < zone) value += repelling_potential(k_r, p, zone);
     }
   }
   for (std::size_t i = 0; i < u.size(); ++i) {

@@ -32,8 +32,7 @@ DriveParameters drive_for(const Problem& problem, Drive drive) {
 PotentialField::PotentialField(const Clearance& clearance, Point goal, double cell_m, const PotentialParameters& parameters)
     : clearance_(&clearance), goal_(goal), parameters_(parameters), p0_(parameters.zone_cells * cell_m),
       least_(parameters.least_cells * cell_m) {
-  const double balance = parameters.balance_cells * cell_m;
-  k_r_ = balance * balance / (1.0 / balance - 1.0 / p0_);
+  k_r_ = repelling_gain(parameters.balance_cells * cell_m, p0_);
 }
 
 double PotentialField::attraction(Point q) const {
@@ -63,8 +62,7 @@ Point PotentialField::attracting_force(Point q) const {
 
 double PotentialField::repulsion_at(double distance_m) const {
   if (distance_m > p0_) return 0.0;
-  const double x = 1.0 / std::max(distance_m, least_) - 1.0 / p0_;
-  return 0.5 * k_r_ * x * x;
+  return repelling_potential(k_r_, std::max(distance_m, least_), p0_);
 }
 
 double PotentialField::repelling_stiffness(double distance_m) const {

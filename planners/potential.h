@@ -32,6 +32,17 @@ struct PotentialParameters {
   bool goal_scaled = false;       ///< multiplies the repulsion by d^2 (Ge and Cui 2000), so that a goal near an obstacle stays a minimum
   double least_cells = 0.05;      ///< p is not taken smaller than this
 };
+/// k_r with which a force of 1 m/s is balanced at `balance` from an obstacle, if the zone has the width `zone`.
+template <class Real>
+[[nodiscard]] constexpr Real repelling_gain(Real balance, Real zone) {
+  return balance * balance / (Real{1} / balance - Real{1} / zone);
+}
+/// U_rep within the zone, at a distance that is more than 0.
+template <class Real>
+[[nodiscard]] constexpr Real repelling_potential(Real gain, Real distance, Real zone) {
+  const Real x = Real{1} / distance - Real{1} / zone;
+  return Real(0.5) * gain * x * x;
+}
 /// Whether all parameters are in their ranges.
 [[nodiscard]] bool in_range(const PotentialParameters& parameters);
 /// What the methods use: the defaults above, except that a parabolic field has k = (1 m/s) / D, where D is the distance from start to goal.
