@@ -26,8 +26,6 @@
 namespace kb::planners {
 namespace {
 
-/// As `kbc plan --scen` has it: nearest rank.
-double quantile(std::vector<double> values, double share) { return values.empty() ? 0.0 : percentile(std::move(values), 100.0 * share); }
 double mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double v : values) sum += v;
@@ -66,8 +64,8 @@ void bugs_on_maps() {
         ++reached;
         if (row.optimum > 0.0) ratios.push_back(result.length_m / row.optimum);
       }
-      fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.1f} | {:.0f} |\n", variant.name, reached, mean(ratios), quantile(ratios, 0.5),
-                 quantile(ratios, 0.95), quantile(ratios, 1.0));
+      fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.1f} | {:.0f} |\n", variant.name, reached, mean(ratios), percentile(ratios, 50),
+                 percentile(ratios, 95), percentile(ratios, 100));
     }
   }
 }
@@ -91,7 +89,7 @@ void bugs_among_separate_obstacles() {
     }
     fmt::print("\n{}, 2,000 worlds\n\n| contact | median to optimum | median to Bug2 |\n|---|---|---|\n", name);
     for (std::size_t i = 0; i < bugs().size(); ++i) {
-      fmt::print("| {} | {:.3f} | {:.3f} |\n", bugs()[i].name, quantile(to_optimum[i], 0.5), quantile(to_bug2[i], 0.5));
+      fmt::print("| {} | {:.3f} | {:.3f} |\n", bugs()[i].name, percentile(to_optimum[i], 50), percentile(to_bug2[i], 50));
     }
   }
 }
@@ -111,7 +109,7 @@ void genetic_on_maps() {
         if (row.optimum > 0.0) ratios.push_back(report.result.length_m / row.optimum);
       }
       fmt::print("| {} | {} | {} of {} | {:.5f} | {:.4f} | {:.4f} | {:.0f} |\n", map.name, balanced ? "balanced" : "length",
-                 reached, map.scenarios.size(), mean(ratios), quantile(ratios, 0.95), quantile(ratios, 1.0), mean(generations));
+                 reached, map.scenarios.size(), mean(ratios), percentile(ratios, 95), percentile(ratios, 100), mean(generations));
     }
   }
 }
@@ -137,8 +135,8 @@ void genetic_among_patrols() {
       collisions += check_walk(arena.grid, &movers, testing::cells_of(arena.grid, result)) ? 1 : 0;
       ratios.push_back(static_cast<double>(result.path.size() - 1) / static_cast<double>(best.size() - 1));
     }
-    fmt::print("| {} | {} | {} | {:.3f} | {:.3f} | {:.3f} | {} |\n", patrols, asked, feasible, quantile(ratios, 0.5),
-               quantile(ratios, 0.95), quantile(ratios, 1.0), collisions);
+    fmt::print("| {} | {} | {} | {:.3f} | {:.3f} | {:.3f} | {} |\n", patrols, asked, feasible, percentile(ratios, 50),
+               percentile(ratios, 95), percentile(ratios, 100), collisions);
   }
 }
 
@@ -168,7 +166,7 @@ void fairway_and_bug() {
         if (search.length() > 0.0) ratios.push_back(result.length_m / search.length());
       }
       fmt::print("| {} | {} | {} of {} | {} | {:.3f} | {:.3f} | {:.0f} times |\n", map.name, unknown, right, asked, reached,
-                 quantile(ratios, 0.5), quantile(ratios, 0.95), loops);
+                 percentile(ratios, 50), percentile(ratios, 95), loops);
     }
   }
 }

@@ -35,8 +35,9 @@ std::uint64_t read_all(const route1::Decision& decision) {
 
 using Clock = std::chrono::steady_clock;
 
+/// By nearest rank: of two in the middle the lower.
 double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
