@@ -13,6 +13,7 @@
 #include "planners/movers.h"
 #include "planners/space_time.h"
 #include "planners/swarm.h"
+#include "tests/unit/planners/meetings.h"
 #include "tests/unit/planners/patrols.h"
 #include "tests/unit/planners/planning.h"
 
@@ -85,7 +86,7 @@ void groups(benchmark::State& state, GroupPlanner planner) {
     problem.goals = draw_cells(grid, robots, dice);
     const GroupResult result = plan_group(problem, {}, options);
     solved += result.outcome == Outcome::kReached ? 1 : 0;
-    conflicts += count_conflicts(grid, result.walks);
+    conflicts += testing::count_conflicts(grid, result.walks);
   }
   state.counters["solved"] = static_cast<double>(solved) / static_cast<double>(seed);
   state.counters["conflicts"] = static_cast<double>(conflicts);

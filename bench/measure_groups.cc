@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "planners/dice.h"
-#include "planners/fuzzy_rules.h"
 #include "planners/swarm.h"
+#include "tests/unit/planners/meetings.h"
 
 namespace kb::planners {
 namespace {
@@ -85,22 +85,6 @@ double fastest_step(const World& world, unsigned threads) {
   return least;
 }
 
-/// Robots in one cell, and pairs that changed places, by a map of who is where that the swarm does not see.
-std::size_t count_meetings(const Grid& grid, const std::vector<Cell>& before, const std::vector<Cell>& now, std::vector<std::uint32_t>& holder) {
-  std::size_t meetings = 0;
-  std::fill(holder.begin(), holder.end(), 0u);
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    std::uint32_t& here = holder[grid.index(now[i])];
-    meetings += here != 0 || grid.blocked(now[i]) ? 1 : 0;
-    here = static_cast<std::uint32_t>(i + 1);
-  }
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const std::uint32_t other = holder[grid.index(before[i])];
-    meetings += other != 0 && other != i + 1 && before[other - 1] == now[i] ? 1 : 0;
-  }
-  return meetings;
-}
-
 void measure(std::size_t robots, std::size_t cells_of_a_robot, std::uint64_t seed) {
   const World world = draw_world(robots, cells_of_a_robot, seed);
   const double one_s = fastest_step<CLOCK_THREAD_CPUTIME_ID>(world, 1), two_s = fastest_step<CLOCK_PROCESS_CPUTIME_ID>(world, 2);
@@ -108,7 +92,7 @@ void measure(std::size_t robots, std::size_t cells_of_a_robot, std::uint64_t see
   const auto side = static_cast<std::uint64_t>(world.grid.width());
   // Every step of a group that can be watched at once; of a million, one in a hundred.
   const std::uint64_t look_every = robots > 100'000 ? 101 : robots > 1'000 ? 11 : 1;
-  std::vector<std::uint32_t> holder(world.grid.size(), 0);
+  testing::Meetings all(world.grid);
   std::size_t meetings = 0, looks = 0;
   std::uint64_t ticks = 0, last = 0;
   for (std::size_t idle = 0, arrived = swarm.arrived(); arrived < robots && idle < 3 * side && ticks < 2 * side; ++ticks) {
@@ -119,7 +103,7 @@ void measure(std::size_t robots, std::size_t cells_of_a_robot, std::uint64_t see
     arrived = swarm.arrived();
     if (!look) continue;
     ++looks;
-    meetings += count_meetings(world.grid, before, swarm.cells(), holder);
+    meetings += all.between(before, swarm.cells());
   }
   fmt::print("| {} | {} | {} x {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} % | {} | {} in {} |\n", robots, cells_of_a_robot, side, side, 1e6 * one_s, 1e6 * two_s,
              static_cast<double>(swarm.bytes()) / static_cast<double>(robots), 100.0 * static_cast<double>(swarm.arrived()) / static_cast<double>(robots), last,

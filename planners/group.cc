@@ -159,35 +159,4 @@ GroupResult plan_group(const GroupProblem& problem, const RunOptions& run, const
   return result;
 }
 
-std::uint64_t count_conflicts(const Grid& grid, const std::vector<std::vector<Cell>>& walks) {
-  std::size_t steps = 0;
-  for (const auto& walk : walks) steps = std::max(steps, walk.size());
-  const auto at = [&walks](std::size_t robot, std::size_t t) { return walks[robot][std::min(t, walks[robot].size() - 1)]; };
-  std::uint64_t conflicts = 0;
-  std::vector<std::uint32_t> holder(grid.size(), 0), before;   // robot + 1
-  for (std::size_t t = 0; t < steps; ++t) {
-    before.swap(holder);
-    holder.assign(grid.size(), 0);
-    for (std::size_t robot = 0; robot < walks.size(); ++robot) {
-      if (walks[robot].empty()) continue;
-      std::uint32_t& here = holder[grid.index(at(robot, t))];
-      conflicts += here != 0 ? 1 : 0;
-      here = static_cast<std::uint32_t>(robot + 1);
-    }
-    for (std::size_t robot = 0; t > 0 && robot < walks.size(); ++robot) {
-      if (walks[robot].empty()) continue;
-      const Cell from = at(robot, t - 1), to = at(robot, t);
-      const auto goes = [&](Cell a, Cell b) {
-        const std::uint32_t other = before[grid.index(a)];
-        return other != 0 && other != robot + 1 && at(other - 1, t) == b;
-      };
-      const bool diagonal = from.x != to.x && from.y != to.y;
-      const Cell one{from.x, to.y}, two{to.x, from.y};
-      if (from == to) continue;
-      conflicts += goes(to, from) || (diagonal && (goes(one, two) || goes(two, one))) ? 1 : 0;
-    }
-  }
-  return conflicts;
-}
-
 }  // namespace kb::planners

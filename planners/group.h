@@ -50,10 +50,6 @@ struct GroupResult {
 
 [[nodiscard]] GroupResult plan_group(const GroupProblem& problem, const RunOptions& run, const GroupOptions& options = {});
 
-/// Counts meetings in a cell, exchanges of places and crossings of diagonals among walks, by a map of which robot is where at each step.
-/// Robots stay where their walks end. 0 for every result of `plan_group`.
-[[nodiscard]] std::uint64_t count_conflicts(const Grid& grid, const std::vector<std::vector<Cell>>& walks);
-
 struct TimedQuestion;
 class Movers;
 /// Walks up the neural map with a layer of neurons for each time step: y(i, t) = max_j gamma w_ij y(j, t + 1). A wait counts as a link of

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "planners/crew.h"
-#include "planners/fuzzy_rules.h"
 
 namespace kb::planners {
 namespace {
@@ -75,14 +74,14 @@ constexpr std::array<std::uint8_t, 8> kMover = [] {
 
 }  // namespace
 
-Swarm::Swarm(const Grid& grid, const StepTable& table, const std::vector<Robot>& robots)
+Swarm::Swarm(const Grid& grid, const FuzzyTable& table, const std::vector<Robot>& robots)
     : grid_(&grid), stride_(grid.width() + 2) {
   for (std::uint32_t code = 0; code < table_.size(); ++code) table_[code] = table[fuzzy_row_of(code)];
-  table_[kFuzzyThere].fill(kStay);
+  table_[kFuzzyThere].fill(kStandStill);
   taken_.assign(grid.all_blocked().begin(), grid.all_blocked().end());
   for (std::uint8_t& taken : taken_) taken = taken != 0 ? 0xFF : 0;
   taken_.resize(grid.size() + kSpare, 0xFF);
-  wishes_.assign(grid.size() + kSpare, kStay);
+  wishes_.assign(grid.size() + kSpare, kStandStill);
   slots_.reserve(robots.size());
   for (const Robot& robot : robots) {
     if (grid.blocked(robot.at) || grid.blocked(robot.goal)) return;
@@ -94,7 +93,7 @@ Swarm::Swarm(const Grid& grid, const StepTable& table, const std::vector<Robot>&
   }
   numbers_.resize(slots_.size());
   std::iota(numbers_.begin(), numbers_.end(), 0u);
-  choices_.assign(slots_.size(), kStay);
+  choices_.assign(slots_.size(), kStandStill);
   ok_ = true;
   sort_by_place();
 }
@@ -151,12 +150,12 @@ void Swarm::resolve(std::size_t first, std::size_t last) {
   const std::ptrdiff_t up = stride_;
   for (std::size_t i = first; i < last; ++i) {
     const std::uint8_t choice = choices[i];
-    if (choice == kStay) continue;
+    if (choice == kStandStill) continue;
     const std::ptrdiff_t target = (slots[i].at.y + 1) * up + slots[i].at.x + 1 + steps[choice];
     const unsigned wanting = zero_bytes(bytes_round(wishes + target, up) ^ kTowards);
     const unsigned me = kMover[choice];
     const auto turned = [turn](unsigned bits) { return (bits >> turn | bits << (8 - turn)) & 0xFFu; };
-    choices[i] = (turned(wanting) & (turned(me) - 1)) != 0 ? kStay : choice;
+    choices[i] = (turned(wanting) & (turned(me) - 1)) != 0 ? kStandStill : choice;
   }
 }
 
@@ -169,7 +168,7 @@ Swarm::Tally Swarm::move(std::size_t first, std::size_t last) {
   const std::ptrdiff_t up = stride_;
   for (std::size_t i = first; i < last; ++i) {
     const std::uint8_t choice = choices[i];
-    if (choice == kStay) continue;
+    if (choice == kStandStill) continue;
     Slot slot = slots[i];
     const std::ptrdiff_t at = (slot.at.y + 1) * up + slot.at.x + 1;
     const Cell step = kDirections[choice];
@@ -178,7 +177,7 @@ Swarm::Tally Swarm::move(std::size_t first, std::size_t last) {
     // A cell that a robot leaves was taken, a cell that one enters was free and has one winner: no cell is written twice, so threads need no
     // lock.
     taken[at] = 0;
-    wishes[at] = kStay;
+    wishes[at] = kStandStill;
     taken[at + steps[choice]] = 0xFF;
     ++tally.moved;
     tally.arrived += slot.at.x == slot.goal.x && slot.at.y == slot.goal.y ? 1 : 0;

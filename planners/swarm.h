@@ -18,16 +18,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "planners/fuzzy_rules.h"
 #include "planners/grid.h"
 #include "planners/problem.h"
 
 namespace kb::planners {
-
-/// What to do: a direction, or kStay. In row g + 8 c the goal lies nearest to direction g (0 = +x, counter-clockwise): clockwise of it if
-/// c is 1, on it or counter-clockwise of it if c is 0. Bit k of the column is set if a move in direction k is not possible, whether for the
-/// cell itself or for one beside a diagonal. The fuzzy table of 72 rules has this form.
-inline constexpr std::uint8_t kStay = 8;
-using StepTable = std::array<std::array<std::uint8_t, 256>, 16>;
 
 struct SwarmResult {
   Outcome outcome = Outcome::kInvalid;   ///< kReached: all arrived; kTrapped: no robot moved for 3 (W + H) ticks; kLimit; kInvalid
@@ -43,8 +38,11 @@ class Swarm {
   struct Robot {
     Cell at, goal;
   };
+  /// The table has the form of kFuzzyTable: in row g + 8 c the goal lies nearest to direction g (0 = +x, counter-clockwise), clockwise of it if
+  /// c is 1, on it or counter-clockwise of it if c is 0. Bit k of the column is set if a move in direction k is not possible, whether for the
+  /// cell itself or for one beside a diagonal.
   /// Each robot must be in a free cell of its own and have its goal in a free cell; otherwise `ok()` is false.
-  Swarm(const Grid& grid, const StepTable& table, const std::vector<Robot>& robots);
+  Swarm(const Grid& grid, const FuzzyTable& table, const std::vector<Robot>& robots);
   [[nodiscard]] bool ok() const { return ok_; }
 
   /// Runs one tick for all robots, and returns how many moved. Robots that have arrived stay where they are, as obstacles. O(robots),
@@ -90,7 +88,7 @@ class Swarm {
   std::vector<std::uint8_t> choices_;
   // By cell.
   std::vector<std::uint8_t> taken_;   // 0xFF: blocked, or a robot is there
-  std::vector<std::uint8_t> wishes_;  // the direction in which its robot wants to go; kStay: none, or no robot
+  std::vector<std::uint8_t> wishes_;  // the direction in which its robot wants to go; kStandStill: none, or no robot
   std::uint64_t ticks_ = 0;
   std::size_t arrived_ = 0;
 };

@@ -10,6 +10,7 @@
 #include "planners/dice.h"
 #include "planners/movers.h"
 #include "planners/space_time.h"
+#include "tests/unit/planners/meetings.h"
 #include "tests/unit/planners/patrols.h"
 #include "tests/unit/planners/planning.h"
 
@@ -43,7 +44,7 @@ TEST(Group, has_no_conflicts_whatever_plans) {
       options.planner = planner;
       const GroupResult result = plan_group(problem, {}, options);
       ASSERT_EQ(result.outcome, Outcome::kReached) << "planner " << static_cast<int>(planner) << " seed " << seed;
-      EXPECT_EQ(count_conflicts(arena.grid, result.walks), 0u);
+      EXPECT_EQ(testing::count_conflicts(arena.grid, result.walks), 0u);
       for (std::size_t i = 0; i < 12; ++i) {
         EXPECT_FALSE(check_walk(arena.grid, nullptr, result.walks[i]));
         EXPECT_EQ(result.walks[i].front(), problem.starts[i]);
@@ -68,7 +69,7 @@ TEST(Group, is_planned_again_in_another_order_where_the_first_fails) {
     const GroupResult result = plan_group(problem, {}, options);
     ASSERT_EQ(result.outcome, Outcome::kReached);
     EXPECT_EQ(result.orders, 2u);
-    EXPECT_EQ(count_conflicts(grid, result.walks), 0u);
+    EXPECT_EQ(testing::count_conflicts(grid, result.walks), 0u);
   }
 }
 
@@ -174,11 +175,11 @@ TEST(Group, refuses_two_robots_in_one_cell) {
 
 TEST(CountConflicts, sees_meetings_exchanges_and_crossings) {
   const Grid grid(3, 3);
-  EXPECT_EQ(count_conflicts(grid, {{{0, 0}, {1, 0}}, {{2, 0}, {1, 0}}}), 1u);
-  EXPECT_EQ(count_conflicts(grid, {{{0, 0}, {1, 0}}, {{1, 0}, {0, 0}}}), 2u);   // seen from both
-  EXPECT_EQ(count_conflicts(grid, {{{0, 0}, {1, 1}}, {{1, 0}, {0, 1}}}), 2u);
-  EXPECT_EQ(count_conflicts(grid, {{{0, 0}, {1, 0}}, {{1, 0}, {2, 0}}}), 0u);   // following is none
-  EXPECT_EQ(count_conflicts(grid, {{{0, 0}}, {{2, 0}, {1, 0}, {0, 0}}}), 1u);   // robots stay at their goals
+  EXPECT_EQ(testing::count_conflicts(grid, {{{0, 0}, {1, 0}}, {{2, 0}, {1, 0}}}), 1u);
+  EXPECT_EQ(testing::count_conflicts(grid, {{{0, 0}, {1, 0}}, {{1, 0}, {0, 0}}}), 2u);   // seen from both
+  EXPECT_EQ(testing::count_conflicts(grid, {{{0, 0}, {1, 1}}, {{1, 0}, {0, 1}}}), 2u);
+  EXPECT_EQ(testing::count_conflicts(grid, {{{0, 0}, {1, 0}}, {{1, 0}, {2, 0}}}), 0u);   // following is none
+  EXPECT_EQ(testing::count_conflicts(grid, {{{0, 0}}, {{2, 0}, {1, 0}, {0, 0}}}), 1u);   // robots stay at their goals
 }
 
 // The length of the shortest walk of at most `horizon` steps with each wait counted as 1, by the plainest search: the least cost of being in
