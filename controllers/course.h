@@ -39,6 +39,8 @@ class Course {
   /// Advances along the course to the piece where the place is now. Cost: a few sines.
   constexpr OnCourse at(const Place& place) noexcept;
 
+  /// Whether there is nothing to drive along: it has not been started, or without pieces.
+  [[nodiscard]] constexpr bool empty() const noexcept { return count_ == 0; }
   /// Index of the piece that is driven; whether the robot is in the bend at its end.
   [[nodiscard]] constexpr std::size_t piece() const noexcept { return piece_; }
   [[nodiscard]] constexpr bool in_bend() const noexcept { return in_bend_; }

@@ -1,6 +1,7 @@
 // Crosses a hall on a path that a planner finds. `neural_map` and `genetic` differ only in the planner, which the program supplies
 // (host.h; the simulator supplies those of planners/, with the map of the hall). In each period the planner gets what the range finders
-// see; if that blocks the path, the planner gives another one. The path is driven as course.h says, its bends on arcs of 10 cm.
+// see; if that blocks the path, the planner gives another one. The path is driven as course.h says, its bends on arcs of 10 cm. Until it has
+// a path, the robot stands.
 // Held up for 4 s, the robot asks for another path; held up for 8 s, it is trapped. If it is trapped or there is no path, `plight()` says
 // so, and it stands. Without odometry, any heading or a hall, it stops. A robot without range finders sees nothing new.
 #pragma once
@@ -35,6 +36,7 @@ class FollowPlan {
 
   void start(const Task& task, const Senses& raw) noexcept {
     hall_.start(task, raw, body, Shut::kNone);
+    course_ = {};
     in_ = task.in;
     first_ = true;
     idle_s_ = 0.0f;
@@ -58,7 +60,8 @@ class FollowPlan {
     if (idle_s_ > 2.0f * kIdle_s) plight_ = Plight::kTrapped;
     if (plight_ != Plight::kNone) return {};
     if (news == WayNews::kNew) course_.start(way.pieces, way.count, kBend_m, hall_.at());
-    first_ = stood && idle_s_ >= kIdle_s;   // asks for another path, from where it is held up
+    first_ = course_.empty() || (stood && idle_s_ >= kIdle_s);   // held up, it asks for another path from there
+    if (course_.empty()) return {};
     const OnCourse on = course_.at(hall_.at());
     const CourseGains how{gains.speed_m_s, 7.0f, gains.turn_rad_s, 0.6f};
     return braked(along_course(on, kBend_m, how), senses, body, 0.03f);

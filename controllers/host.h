@@ -24,8 +24,8 @@ struct Way {
   bool whole = true;
 };
 enum class WayNews : std::uint8_t {
-  kSame,     ///< the path stays as it was
-  kNew,      ///< `way` was written
+  kSame,     ///< the path stays as it was. While there is none, the robot stands, for 8 s at most, and the next question is `first` again
+  kNew,      ///< `way` was written; without pieces it is no path, as with kSame while there is none
   kNoWay,    ///< no path exists
   kFailed,   ///< no path was found, though one may exist
 };
@@ -34,7 +34,7 @@ struct WayQuestion {
   Door in;                       ///< where the hall begins, in the same frame
   const Senses* senses = nullptr;
   const PlanGains* gains = nullptr;
-  bool first = false;            ///< the strategy has just begun: there is no path yet
+  bool first = false;            ///< there is no path yet, or the robot has been held up on it for 4 s: plan from `at`
 };
 
 /// The inputs and outputs of std.go_to_goal's `GoToGoal`.

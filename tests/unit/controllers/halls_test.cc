@@ -194,5 +194,72 @@ TEST(FollowPlan, IsHeldUpWhicheverWayItFaces) {
   }
 }
 
+/// A program's planner that needs some time, and then knows a way to the north.
+struct SlowPlanner {
+  int thinks = 3;                ///< so many questions are answered with kSame
+  std::uint8_t pieces = 1;
+  int asked = 0, asked_first = 0;
+
+  Host host() {
+    return {this, [](void* self, const WayQuestion& question, Way& way) { return static_cast<SlowPlanner*>(self)->look(question, way); }, nullptr};
+  }
+  WayNews look(const WayQuestion& question, Way& way) {
+    asked_first += question.first ? 1 : 0;
+    if (++asked != thinks + 1) return WayNews::kSame;
+    way.count = pieces;
+    way.pieces[0] = {0.5f * kPi, 5.0f};
+    return WayNews::kNew;
+  }
+};
+Task inside_a_hall() {
+  Task task = hall_of(5.0f);
+  task.in.x_m = -2.0f;
+  return task;
+}
+
+TEST(FollowPlan, StandsUntilItHasAPath) {
+  SlowPlanner planner;
+  FollowPlan plan;
+  plan.host = planner.host();
+  plan.start(inside_a_hall(), standing());
+  for (int i = 0; i < planner.thinks; ++i) {
+    const Motion motion = plan.step(standing(), 0.02f);
+    EXPECT_EQ(motion.speed_m_s, 0.0f) << "east is no path";
+    EXPECT_EQ(motion.turn_rad_s, 0.0f);
+  }
+  EXPECT_GT(plan.step(standing(), 0.02f).turn_rad_s, 0.5f) << "to the north";
+  static_cast<void>(plan.step(standing(), 0.02f));
+  EXPECT_EQ(planner.asked_first, planner.thinks + 1) << "as long as there was none";
+}
+
+TEST(FollowPlan, DoesNotDriveOnThePathOfItsLastDrive) {
+  SlowPlanner planner{.thinks = 0};
+  FollowPlan plan;
+  plan.host = planner.host();
+  plan.start(inside_a_hall(), standing());
+  EXPECT_GT(plan.step(standing(), 0.02f).turn_rad_s, 0.5f);
+  plan.start(inside_a_hall(), standing());
+  EXPECT_EQ(plan.step(standing(), 0.02f).turn_rad_s, 0.0f);
+}
+
+TEST(FollowPlan, APathWithoutPiecesIsNone) {
+  SlowPlanner planner{.thinks = 0, .pieces = 0};
+  FollowPlan plan;
+  plan.host = planner.host();
+  plan.start(inside_a_hall(), standing());
+  EXPECT_EQ(plan.step(standing(), 0.02f).speed_m_s, 0.0f);
+}
+
+TEST(FollowPlan, WaitsEightSecondsForAPath) {
+  SlowPlanner planner{.thinks = 10'000};
+  FollowPlan plan;
+  plan.host = planner.host();
+  plan.start(inside_a_hall(), standing());
+  for (int i = 0; i < 395; ++i) static_cast<void>(plan.step(standing(), 0.02f));
+  EXPECT_EQ(plan.plight(), Plight::kNone);
+  for (int i = 0; i < 10; ++i) static_cast<void>(plan.step(standing(), 0.02f));
+  EXPECT_EQ(plan.plight(), Plight::kTrapped);
+}
+
 }  // namespace
 }  // namespace mts
