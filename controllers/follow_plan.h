@@ -47,7 +47,7 @@ class FollowPlan {
     const Senses senses = hall_.hear(raw, dt_s);
     const bool stood = idle_s_ < kIdle_s;
     const bool still = magnitude(senses.speed_m_s) < 0.02f && magnitude(wrapped(hall_.at().heading_rad - last_rad_)) < 0.002f;
-    idle_s_ = still && !hall_.blind() && senses.range_known ? idle_s_ + sane_period(dt_s) : 0.0f;
+    idle_s_ = still && !hall_.blind() && hall_.sees(senses) ? idle_s_ + sane_period(dt_s) : 0.0f;
     last_rad_ = hall_.at().heading_rad;
     if (hall_.blind() || plight_ != Plight::kNone) return {};
     if (hall_.missed_door()) plight_ = Plight::kTrapped;

@@ -53,7 +53,7 @@ class Hall {
     reckoning_.step(senses, dt_s_);
     blind_ = !known_ || !reckoning_.heading_known() || !reckoning_.distance_known();
     const bool stands = !crosses() && !past() && reckoning_.travelled_m() - before_m < kCreeps_m_s * dt_s_;
-    if (!blind_ && senses.range_known) stood_s_ = stands ? stood_s_ + dt_s_ : 0.0f;   // a robot that stands because its range finders are silent does not wait in vain
+    if (!blind_ && sees(senses)) stood_s_ = stands ? stood_s_ + dt_s_ : 0.0f;   // a robot that stands because its range finders are silent does not wait in vain
     if (blind_) return senses;
     if (phase_ == Phase::kIn && along(in_).x_m > body_.hall_door_m + kIn_m) phase_ = Phase::kAcross;
     if (phase_ == Phase::kAcross && to_gate() < kAtGate_m) phase_ = Phase::kOut;
@@ -66,6 +66,8 @@ class Hall {
     return senses;
   }
 
+  /// Whether the range finders say what stands in the way, or the body has none: the robot then drives. The senses must have been `heard`.
+  [[nodiscard]] constexpr bool sees(const Senses& senses) const noexcept { return senses.range_known || !body_.has_range_finders; }
   /// Whether it knows of no hall, or not where it is.
   [[nodiscard]] constexpr bool blind() const noexcept { return blind_; }
   /// Whether the robot is between the doors: the controller decides its motion.

@@ -261,5 +261,24 @@ TEST(FollowPlan, WaitsEightSecondsForAPath) {
   EXPECT_EQ(plan.plight(), Plight::kTrapped);
 }
 
+// Nothing but the bumper tells this robot that something stands in its way.
+TEST(FollowPlan, IsHeldUpByItsBumperToo) {
+  for (const bool in_door : {true, false}) {
+    SlowPlanner planner{.thinks = 0};
+    FollowPlan plan;
+    plan.body.has_range_finders = false;
+    plan.host = planner.host();
+    Senses senses = standing();
+    senses.range_known = false;
+    senses.touched = true;
+    senses.heading_rad = senses.turned_rad = in_door ? 0.0f : 0.5f * kPi;
+    plan.start(in_door ? hall_of(5.0f) : inside_a_hall(), senses);
+    for (int i = 0; i < 50 * (in_door ? 19 : 7); ++i) static_cast<void>(plan.step(senses, 0.02f));
+    EXPECT_EQ(plan.plight(), Plight::kNone);
+    for (int i = 0; i < 50 * 2; ++i) static_cast<void>(plan.step(senses, 0.02f));
+    EXPECT_EQ(plan.plight(), Plight::kTrapped) << in_door;
+  }
+}
+
 }  // namespace
 }  // namespace mts
