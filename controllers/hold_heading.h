@@ -50,7 +50,7 @@ class HoldHeading {
     const Senses senses = heard(raw, body);
     reckoning_.step(senses, sane_period(dt_s));
     if (!reckoning_.heading_known() || !reckoning_.distance_known()) return {};
-    if (reckoning_.compass_silent_m() >= gains.blind_m) return {};
+    if (!senses.heading_known && reckoning_.compass_silent_m() >= gains.blind_m) return {};
     const OnCourse on = course_.at(reckoning_.at);
     over_ = course_.on_last() && on.along_m > course_.current().length_m + gains.overrun_m;
     if (over_) return {};

@@ -187,6 +187,16 @@ TEST(HoldHeading, StopsAfterHalfAMetreWithoutTheCompass) {
   EXPECT_NEAR(plant.x, 0.5, 0.06);
 }
 
+TEST(HoldHeading, DrivesByTheCompassEvenIfItMayNotDriveWithoutIt) {
+  Plant plant = anywhere();
+  HoldHeading controller;
+  controller.gains.blind_m = 0.0f;
+  controller.start(forward(), plant.sense());
+  EXPECT_TRUE(moves(controller.step(plant.sense(), 0.01f)));
+  EXPECT_FALSE(moves(controller.step(silenced(plant.sense(), kHeading), 0.01f)));
+  EXPECT_TRUE(moves(controller.step(plant.sense(), 0.01f)));
+}
+
 TEST(HoldHeading, StopsWhereNobodyToldItACourse) {
   Plant plant({}, {}, 1);
   plant.place(0.0, 0.0, 0.0);
