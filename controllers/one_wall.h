@@ -38,7 +38,7 @@ class OneWall {
     kept_ = {};
     gone_m_ = turned_rad_ = 0.0f;
     left_ = left;
-    met_ = false;
+    met_ = beside_ = false;
   }
 
   /// The senses must have been `heard`, the range finders must be known, and `at` must be reckoned by heading and odometry.
@@ -52,7 +52,8 @@ class OneWall {
       const NearPoints::Nearest beside = points_.nearest(at, left_, true);
       if (beside.found && beside.distance_m < reach && was_kept(beside, at) && passable(wall.bearing_rad, beside.bearing_rad, at, body)) wall = beside;
     }
-    if (wall.found && wall.distance_m < reach) {
+    beside_ = wall.found && wall.distance_m < reach;
+    if (beside_) {
       met_ = true;
       kept_ = spot_of(wall, at);
       gone_m_ = turned_rad_ = 0.0f;
@@ -81,7 +82,7 @@ class OneWall {
   [[nodiscard]] float gone_m() const noexcept { return gone_m_; }
   /// Whether there has been nothing beside the robot for too long.
   [[nodiscard]] bool lost(const OneWallGains& gains) const noexcept {
-    return gone_m_ >= gains.gap_m || turned_rad_ > 1.5f * kPi;
+    return !beside_ && (gone_m_ >= gains.gap_m || turned_rad_ > 1.5f * kPi);
   }
 
  private:
@@ -125,7 +126,8 @@ class OneWall {
   NearPoints points_{};
   Place kept_{};               ///< where the wall was nearest, if `met_`
   float gone_m_ = 0.0f, turned_rad_ = 0.0f;   ///< driven and turned since there was a wall
-  bool left_ = false, met_ = false;
+  bool left_ = false;
+  bool met_ = false, beside_ = false;   ///< there has been a wall; there is one now
 };
 
 }  // namespace mts

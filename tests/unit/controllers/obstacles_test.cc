@@ -217,6 +217,25 @@ TEST(OneWall, DrivesBetweenTheWallAndAnotherThingOnlyIfItPasses) {
   }
 }
 
+TEST(KeepWall, IsNotLostBesideAWallEvenIfItMayNotDriveWithoutOne) {
+  Floor floor;
+  floor.add_walls({{-1.0, 0.3}, {1.5, 0.3}});
+  Plant plant(floor, {}, 1);
+  plant.place(0.0, 0.0, 0.0);
+  KeepWall controller;
+  controller.gains.side = Side::kLeft;
+  controller.gains.gap_m = 0.0f;
+  controller.start({}, plant.sense());
+  drive_until(controller, plant, 0.02, 20.0, [&](double) { return plant.x > 1.0 || controller.lost(); });
+  EXPECT_GT(plant.x, 1.0);
+  plant.remove_walls();
+  drive_until(controller, plant, 0.02, 20.0, [&](double) { return controller.lost(); });
+  EXPECT_TRUE(controller.lost());
+  const Motion motion = controller.step(plant.sense(), 0.02f);
+  EXPECT_EQ(motion.speed_m_s, 0.0f) << "who is lost stands";
+  EXPECT_EQ(motion.turn_rad_s, 0.0f);
+}
+
 TEST(KeepWall, WithOneHandFollowsInnerAndOuterCorners) {
   for (const double hand : {1.0, -1.0}) {
     Floor floor;   // along, out round a corner, and into one
