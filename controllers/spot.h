@@ -81,22 +81,25 @@ class LookRound {
 
   void start(const Task&, const Senses& raw) noexcept {
     reckoning_.start_relative(heard(raw, body));
-    middle_rad_ = reckoning_.at.heading_rad;
+    last_rad_ = reckoning_.at.heading_rad;
+    off_rad_ = 0.0f;
     to_left_ = true;
   }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     reckoning_.step(heard(raw, body), sane_period(dt_s));
     if (!reckoning_.heading_known()) return {};
-    const float off = wrapped(reckoning_.at.heading_rad - middle_rad_);
-    if (off > gains.angle_rad) to_left_ = false;
-    if (off < -gains.angle_rad) to_left_ = true;
+    off_rad_ += wrapped(reckoning_.at.heading_rad - last_rad_);
+    last_rad_ = reckoning_.at.heading_rad;
+    if (off_rad_ > gains.angle_rad) to_left_ = false;
+    if (off_rad_ < -gains.angle_rad) to_left_ = true;
     return {0.0f, to_left_ ? gains.turn_rad_s : -gains.turn_rad_s};
   }
   [[nodiscard]] bool done() const noexcept { return false; }
 
  private:
   Reckoning reckoning_{};
-  float middle_rad_ = 0.0f;
+  float last_rad_ = 0.0f;
+  float off_rad_ = 0.0f;   ///< from the heading at the start; past half a turn if it cannot brake before
   bool to_left_ = true;
 };
 

@@ -289,5 +289,23 @@ TEST(LookRound, LooksToBothSidesAndStaysWhereItIs) {
   EXPECT_LT(std::hypot(plant.x, plant.y), 0.03);
 }
 
+// At the largest angle and speed it comes past the rear before it can turn back.
+TEST(LookRound, LooksToBothSidesAlmostAllRound) {
+  Plant plant({}, {}, 1);
+  plant.place(0.0, 0.0, 0.0);
+  LookRound controller;
+  controller.gains = {180.0f * kRadPerDeg, 170.0f * kRadPerDeg};
+  controller.start({}, plant.sense());
+  bool to_left = true;
+  int turns = 0;
+  drive_until(controller, plant, 0.02, 20.0, [&](double) {
+    const bool now = plant.left_m_s < plant.right_m_s;
+    turns += now != to_left ? 1 : 0;
+    to_left = now;
+    return false;
+  });
+  EXPECT_GE(turns, 8) << "340 degrees to and fro take 2 s";
+}
+
 }  // namespace
 }  // namespace mts::plant
