@@ -79,7 +79,7 @@ namespace detail {
 
 /// The motion, slowed so that the robot can stop `margin_m` before what the range finder ahead sees (backwards: the one behind), and
 /// before the lane of somebody who comes from the side (`Senses::met_m`). At most the body's top speed. The turning rate stays, except as
-/// said below. The senses must have been `heard`.
+/// said below. The robot stands if one of the two numbers is NaN or infinite. The senses must have been `heard`.
 ///
 ///   the bumper is pressed                      no driving ahead; turns on the spot and driving backwards as asked for
 ///   all range finders are silent               it stands, except for turns on the spot; a body without range finders drives
@@ -91,7 +91,7 @@ namespace detail {
 /// stands if there is one on each side.
 [[nodiscard]] constexpr Motion braked(Motion motion, const Senses& senses, const Body& body, float margin_m = 0.06f) noexcept {
   constexpr float kSine57 = 0.838670568f, kAway_rad_s = 1.0f, kMeets_m = 0.01f, kNear_m = 0.03f, kAbeam_m = 0.03f, kBears_1_s_m = 50.0f, kBears_rad_s = 2.0f;
-  if (motion.speed_m_s != motion.speed_m_s || motion.turn_rad_s != motion.turn_rad_s) return {};   // the task holds a NaN
+  if (!is_finite(motion.speed_m_s) || !is_finite(motion.turn_rad_s)) return {};   // the task or the gains hold such a number
   if (!(motion.speed_m_s > 0.0f) && !(motion.speed_m_s < 0.0f)) return motion;
   if (body.has_range_finders && !senses.range_known) return {};
   if (motion.speed_m_s < 0.0f) return {greatest(motion.speed_m_s, -detail::free_speed(senses, kRangeFinders / 2, body, margin_m)), motion.turn_rad_s};

@@ -49,6 +49,16 @@ Body body_of(const Approach& how) {
   return body;
 }
 
+TEST(Braked, StandsIfItIsAskedForWhatIsNoNumber) {
+  for (const float odd : {kNaN, kInfinity, -kInfinity}) {
+    for (const Motion& asked : {Motion{0.2f, odd}, Motion{0.0f, odd}, Motion{odd, 0.2f}}) {
+      const Motion motion = braked(asked, heard(in_the_open()), Body{});
+      EXPECT_EQ(motion.speed_m_s, 0.0f);
+      EXPECT_EQ(motion.turn_rad_s, 0.0f);
+    }
+  }
+}
+
 TEST(Braked, StopsInTimeHoweverLateItHears) {
   for (const double latency_s : {0.0, 0.05, 0.1, 0.2, 0.3}) {
     for (const double speed_m_s : {0.3, 0.6, 1.2}) {
