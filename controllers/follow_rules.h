@@ -8,7 +8,8 @@
 //              while driving if the answer is less than 20 degrees at full speed.
 //
 // The rules have no memory, so they can go to and fro for ever where obstacles are concave towards the goal. After 3 m or 10 s without
-// getting nearer to the goal than before, the robot is trapped: `plight()` says so, and it stands. So it does if no rule fires.
+// getting nearer to the goal than before, the robot is trapped: `plight()` says so, and it stands. So it does if no rule fires, or if the
+// answer is no number.
 // Without range finders, odometry, any heading or a hall, it stops.
 #pragma once
 
@@ -66,8 +67,10 @@ class FollowRules {
     in.bearing_deg = hall_.bearing(hall_.gate()) / kRadPerDeg;
     for (std::size_t i = 0; i < kRangeFinders; ++i) in.free[i] = free_at(i);
     const RulesOutput out = host.decide(host.self, in);
-    if (!out.found) plight_ = Plight::kTrapped;
-    if (!out.found) return {};
+    if (!out.found || !is_finite(out.turn_deg) || !is_finite(out.speed)) {
+      plight_ = Plight::kTrapped;
+      return {};
+    }
     const float turn = out.turn_deg * kRadPerDeg;
     if (magnitude(turn) < kSteered_rad && out.speed > 0.5f) {
       return braked({kGains.speed_m_s * out.speed, clamped(3.0f * turn, -kGains.turn_rad_s, kGains.turn_rad_s)}, senses, body);

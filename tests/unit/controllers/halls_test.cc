@@ -1,6 +1,8 @@
 // What controllers of halls are made of.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <waymark/controllers/any_controller.h>
 
 namespace mts {
@@ -277,6 +279,25 @@ TEST(FollowPlan, IsHeldUpByItsBumperToo) {
     EXPECT_EQ(plan.plight(), Plight::kNone);
     for (int i = 0; i < 50 * 2; ++i) static_cast<void>(plan.step(senses, 0.02f));
     EXPECT_EQ(plan.plight(), Plight::kTrapped) << in_door;
+  }
+}
+
+TEST(FollowRules, AnAnswerThatIsNoNumberIsNone) {
+  const float none[] = {std::numeric_limits<float>::quiet_NaN(), kInfinity};
+  for (const float odd : none) {
+    for (const RulesOutput& answer : {RulesOutput{odd, 1.0f, true}, RulesOutput{10.0f, odd, true}}) {
+      FollowRules rules;
+      rules.host = {const_cast<RulesOutput*>(&answer), nullptr, [](void* self, const RulesInput&) { return *static_cast<RulesOutput*>(self); }};
+      Senses senses = standing();
+      senses.heading_rad = senses.turned_rad = 1.0f;
+      rules.start(inside_a_hall(), senses);
+      for (int i = 0; i < 3; ++i) {
+        const Motion motion = rules.step(senses, 0.02f);
+        EXPECT_EQ(motion.speed_m_s, 0.0f);
+        EXPECT_EQ(motion.turn_rad_s, 0.0f) << "east is no answer";
+      }
+      EXPECT_EQ(rules.plight(), Plight::kTrapped);
+    }
   }
 }
 
