@@ -17,14 +17,15 @@ namespace mts {
 enum class Setting : std::uint8_t {
   kSet,
   kUnknown,      ///< the controller has no such parameter
-  kOutside,      ///< below `low`, above `highest` for its body, between two words, or NaN; nothing was set
+  kOutside,      ///< below `lowest` or above `highest` for its body, between two words, or NaN; nothing was set
 };
 
 class AnyController {
  public:
   AnyController() noexcept : stand_{} {}
 
-  /// Switches to another controller, with default parameters, for this body; parameters set earlier are lost. Call `start` before `step`.
+  /// Switches to another controller, for this body; parameters set earlier are lost. Each has its default, or if the body does not allow
+  /// that (see `lowest` and `highest`) the value nearest to it. Call `start` before `step`.
   /// `host` serves controllers that need a planner or rules. Without it they stand, and `plight()` reports kNoWay.
   void choose(ControllerId id, const Body& body = {}, const Host& host = {}) noexcept {
     id_ = id;
@@ -50,6 +51,10 @@ class AnyController {
       if constexpr (requires { controller.body; }) controller.body = body;
       if constexpr (requires { controller.host; }) controller.host = host;
     });
+    for_each_parameter(id, [&](const Parameter& parameter) {
+      const float allowed = clamped(parameter.preset, lowest(parameter, body), highest(parameter, body));
+      if (allowed != parameter.preset) static_cast<void>(set(parameter.name, allowed));
+    });
   }
 
   [[nodiscard]] ControllerId id() const noexcept { return id_; }
@@ -59,7 +64,7 @@ class AnyController {
   [[nodiscard]] Setting set(const char* name, float value) noexcept {
     const Parameter* parameter = find_parameter(id_, name);
     if (parameter == nullptr) return Setting::kUnknown;
-    if (!(value >= parameter->low && value <= highest(*parameter, body()))) return Setting::kOutside;
+    if (!(value >= lowest(*parameter, body()) && value <= highest(*parameter, body()))) return Setting::kOutside;
     if (parameter->values != Values::kNumber && value != static_cast<float>(static_cast<int>(value))) return Setting::kOutside;   // between two words, or two whole numbers
     if (parameter->values == Values::kTurn) {
       turn_ = static_cast<Turn>(static_cast<int>(value));

@@ -31,7 +31,7 @@ inline constexpr Gain<BugGains> kBugGains[] = {
     kind_gain("kind", &BugGains::kind, "when it leaves an obstacle"),
     side_gain("side", &BugGains::side, "at which hand an obstacle is kept; both: whichever has more room"),
     gain("speed", "m/s", &BugGains::speed_m_s, 0.05f, 0.6f, "on straight pieces"),
-    gain("distance", "m", &BugGains::distance_m, 0.15f, 0.5f, "from the robot's centre to the obstacle"),
+    distance_gain("distance", &BugGains::distance_m, 0.15f, 0.5f, "from the robot's centre to the obstacle"),
     angle_gain("turn_speed", "deg/s", &BugGains::turn_rad_s, 20.0f, 240.0f, "the fastest turn"),
 };
 

@@ -15,7 +15,7 @@ namespace mts {
 inline constexpr Gain<PlanGains> kNeuralMapGains[] = {
     gain("speed", "m/s", &PlanGains::speed_m_s, 0.05f, 0.6f, "on straight pieces"),
     angle_gain("turn_speed", "deg/s", &PlanGains::turn_rad_s, 20.0f, 240.0f, "the fastest turn"),
-    gain("clearance", "m", &PlanGains::clearance_m, 0.15f, 0.5f, "from the robot's centre to what stands there, at least"),
+    distance_gain("clearance", &PlanGains::clearance_m, 0.15f, 0.5f, "from the robot's centre to what stands there, at least"),
     gain("cell", "m", &PlanGains::cell_m, 0.05f, 0.3f, "side of a cell of the map"),
 };
 inline constexpr Gain<PlanGains> kGeneticGains[] = {

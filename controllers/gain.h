@@ -55,9 +55,10 @@ struct Parameter {
   const char* name;
   const char* unit;    ///< m, m/s, deg, deg/s, 1/m, ...; "" for a ratio or a word
   float preset;        ///< the default, in `unit`
-  float low, high;     ///< inclusive, in `unit`; of a speed see also `highest` in registry.h
+  float low, high;     ///< inclusive, in `unit`; `lowest` and `highest` in registry.h say what a body leaves of it
   const char* about;   ///< one line
   Values values;
+  bool from_centre = false;   ///< a distance from the robot's centre to what stands beside it
 };
 
 /// A parameter, and the field of the gains that holds it.
@@ -83,6 +84,13 @@ template <class Gains>
 [[nodiscard]] constexpr Gain<Gains> gain(const char* name, const char* unit, float Gains::* field, float low, float high,
                                          const char* about) {
   return {{name, unit, Gains{}.*field, low, high, about, Values::kNumber}, field, nullptr, 1.0f, nullptr, nullptr};
+}
+/// A distance from the robot's centre to what stands beside it.
+template <class Gains>
+[[nodiscard]] constexpr Gain<Gains> distance_gain(const char* name, float Gains::* field, float low, float high, const char* about) {
+  Gain<Gains> made = gain(name, "m", field, low, high, about);
+  made.parameter.from_centre = true;
+  return made;
 }
 /// A whole number.
 template <class Gains>

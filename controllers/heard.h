@@ -64,6 +64,9 @@ namespace mts {
   return fastest > 0.0f ? fastest : 0.0f;   // 0 also if the body holds a NaN
 }
 
+/// From the robot's edge: it does not turn towards a thing abeam that is nearer than this.
+inline constexpr float kNearestBeside_m = 0.03f;
+
 namespace detail {
 
 /// The highest speed towards where the middle one of three neighbouring range finders looks: slow enough to stop `margin_m` before what
@@ -90,7 +93,7 @@ namespace detail {
 /// on. It does not turn towards a thing as near abeam. If it would hit the thing by going straight on, it turns away on the spot, or
 /// stands if there is one on each side.
 [[nodiscard]] constexpr Motion braked(Motion motion, const Senses& senses, const Body& body, float margin_m = 0.06f) noexcept {
-  constexpr float kSine57 = 0.838670568f, kAway_rad_s = 1.0f, kMeets_m = 0.01f, kNear_m = 0.03f, kAbeam_m = 0.03f, kBears_1_s_m = 50.0f, kBears_rad_s = 2.0f;
+  constexpr float kSine57 = 0.838670568f, kAway_rad_s = 1.0f, kMeets_m = 0.01f, kNear_m = 0.03f, kBears_1_s_m = 50.0f, kBears_rad_s = 2.0f;
   if (!is_finite(motion.speed_m_s) || !is_finite(motion.turn_rad_s)) return {};   // the task or the gains hold such a number
   if (!(motion.speed_m_s > 0.0f) && !(motion.speed_m_s < 0.0f)) return motion;
   if (body.has_range_finders && !senses.range_known) return {};
@@ -101,8 +104,8 @@ namespace detail {
   if (!senses.range_known || !(motion.speed_m_s > 0.0f)) return motion;
   const auto aside = [&](std::size_t eighths) { return senses.range_m[eighths] * kSine57 - body.radius_m; };
   const float left = aside(1), right = aside(7);
-  const bool left_near = left < kNear_m || senses.range_m[2] < body.radius_m + kAbeam_m;
-  const bool right_near = right < kNear_m || senses.range_m[6] < body.radius_m + kAbeam_m;
+  const bool left_near = left < kNear_m || senses.range_m[2] < body.radius_m + kNearestBeside_m;
+  const bool right_near = right < kNear_m || senses.range_m[6] < body.radius_m + kNearestBeside_m;
   const float bears = clamped(kBears_1_s_m * (greatest(kNear_m - right, 0.0f) - greatest(kNear_m - left, 0.0f)), -kBears_rad_s, kBears_rad_s);   // to the left
   if (left_near) motion.turn_rad_s = least(motion.turn_rad_s, 0.0f);
   if (right_near) motion.turn_rad_s = greatest(motion.turn_rad_s, 0.0f);

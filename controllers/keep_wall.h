@@ -30,7 +30,7 @@ struct KeepWallGains {
 inline constexpr Gain<KeepWallGains> kKeepWallGains[] = {
     side_gain("side", &KeepWallGains::side, "at which hand the wall is kept; both: between two walls"),
     gain("speed", "m/s", &KeepWallGains::speed_m_s, 0.05f, 0.6f, "along straight walls"),
-    gain("distance", "m", &KeepWallGains::distance_m, 0.15f, 1.0f, "from the robot's centre to the wall"),
+    distance_gain("distance", &KeepWallGains::distance_m, 0.15f, 1.0f, "from the robot's centre to the wall"),
     gain("convergence", "1/m", &KeepWallGains::convergence_1_m, 2.0f, 15.0f, "lambda: how quickly errors decay over the way"),
     angle_gain("turn_speed", "deg/s", &KeepWallGains::turn_rad_s, 20.0f, 240.0f, "the fastest turn"),
     gain("corner_radius", "m", &KeepWallGains::corner_radius_m, 0.05f, 0.5f, "how bends and corners are rounded"),

@@ -118,6 +118,13 @@ constexpr void for_each_parameter(ControllerId id, Use&& use) {
   return same_text(parameter.unit, "m/s") ? body.top_speed_m_s : parameter.high;
 }
 
+/// The smallest: for a distance from the robot's centre at least the body's radius + 3 cm, since nearer things are not kept at a distance
+/// but borne away from (see `braked`); for everything else `Parameter::low`. Never above `highest`.
+[[nodiscard]] constexpr float lowest(const Parameter& parameter, const Body& body) noexcept {
+  const float low = parameter.from_centre ? greatest(parameter.low, body.radius_m + kNearestBeside_m) : parameter.low;
+  return least(low, highest(parameter, body));
+}
+
 /// The number that stands for a word; -1 if the parameter has no such word, or takes numbers.
 [[nodiscard]] constexpr float number_of_word(const Parameter& parameter, const char* word) noexcept {
   const Words words = words_of(parameter.values);

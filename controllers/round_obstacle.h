@@ -28,7 +28,7 @@ struct RoundObstacleGains {
 inline constexpr Gain<RoundObstacleGains> kRoundObstacleGains[] = {
     side_gain("side", &RoundObstacleGains::side, "at which hand the obstacle is kept; both: whichever has more room"),
     gain("speed", "m/s", &RoundObstacleGains::speed_m_s, 0.05f, 0.6f, "beside the obstacle"),
-    gain("distance", "m", &RoundObstacleGains::distance_m, 0.15f, 1.0f, "from the robot's centre to the obstacle"),
+    distance_gain("distance", &RoundObstacleGains::distance_m, 0.15f, 1.0f, "from the robot's centre to the obstacle"),
     angle_gain("turn_speed", "deg/s", &RoundObstacleGains::turn_rad_s, 20.0f, 240.0f, "the fastest turn"),
     gain("detour", "m", &RoundObstacleGains::detour_m, 0.5f, 50.0f, "the longest way round"),
 };

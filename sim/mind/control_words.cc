@@ -26,7 +26,8 @@ struct Bounds {
 Bounds bounds_of(const mts::Parameter& parameter, const mts::Body& body) {
   const float ratio = mts::Similarity(body.size).of(parameter.unit), high = parameter.high * ratio;
   const bool speed = std::string_view(parameter.unit) == "m/s";
-  return {parameter.low * ratio, speed ? std::max(high, body.top_speed_m_s) : high, parameter.values == mts::Values::kWhole};
+  const float low = parameter.from_centre ? std::max(parameter.low * ratio, body.radius_m + mts::kNearestBeside_m * ratio) : parameter.low * ratio;
+  return {low, speed ? std::max(high, body.top_speed_m_s) : high, parameter.values == mts::Values::kWhole};
 }
 
 std::string unit_of(const mts::Parameter& parameter) { return *parameter.unit != '\0' ? fmt::format(" {}", parameter.unit) : ""; }

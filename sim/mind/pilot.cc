@@ -13,8 +13,8 @@ Pilot::Pilot(const Knowledge& knowledge, const mts::Body& body) : knowledge_(kno
     for (const Strategy::Setting& setting : strategy.settings) {
       const mts::Parameter& parameter = *mts::find_parameter(strategy.controller, setting.name.c_str());
       const float value = as.in(setting.value, parameter.unit);
-      // Values were checked when they were read; this body may be slower than others, and then drives as fast as it can.
-      static_cast<void>(controllers_[i].set(parameter.name, std::min(value, mts::highest(parameter, small))));
+      // Values were checked when they were read; this body may be slower or broader than others, and then does what it can.
+      static_cast<void>(controllers_[i].set(parameter.name, std::clamp(value, mts::lowest(parameter, small), mts::highest(parameter, small))));
     }
   }
 }

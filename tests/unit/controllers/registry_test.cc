@@ -115,6 +115,41 @@ TEST(AnyController, SetsWhatIsInRangeAndSaysWhatIsNot) {
   EXPECT_FLOAT_EQ(controller.step(senses, 0.01f).speed_m_s, 0.4f);
 }
 
+TEST(AnyController, KeepsNoWallInsideTheRobot) {
+  const Body broad{.radius_m = 0.2f};
+  const struct { ControllerId id; const char* name; } distances[] = {{ControllerId::kKeepWall, "distance"}, {ControllerId::kRoundObstacle, "distance"},
+                                                                      {ControllerId::kBug, "distance"}, {ControllerId::kGenetic, "clearance"}};
+  for (const auto& one : distances) {
+    AnyController controller;
+    controller.choose(one.id);
+    EXPECT_EQ(controller.set(one.name, 0.15f), Setting::kSet);
+    controller.choose(one.id, broad);
+    EXPECT_EQ(controller.set(one.name, 0.22f), Setting::kOutside) << "2 cm from its edge";
+    EXPECT_EQ(controller.set(one.name, 0.24f), Setting::kSet);
+  }
+  for_each_parameter(ControllerId::kKeepWall, [&](const Parameter& parameter) {
+    EXPECT_EQ(lowest(parameter, broad) == parameter.low, !same_text(parameter.name, "distance")) << parameter.name;
+  });
+}
+
+// A line somewhat aside, which a robot follows the more slowly the slower it is on straight lines.
+TEST(AnyController, DefaultsAreWhatItsBodyAllows) {
+  Senses senses;
+  senses.line_known = true;
+  senses.line[1] = 1.0f;
+  const auto speed = [&](float set) {
+    AnyController controller;
+    controller.choose(ControllerId::kFollowLine, {.top_speed_m_s = 0.2f, .has_range_finders = false});
+    EXPECT_EQ(controller.set("speed", set), set > 0.0f ? Setting::kSet : Setting::kOutside);
+    controller.start({}, senses);
+    return controller.step(senses, 0.01f).speed_m_s;
+  };
+  EXPECT_FLOAT_EQ(speed(0.0f), speed(0.2f)) << "0.4 m/s, the default, is more than it can drive";
+  EXPECT_LT(speed(0.0f), 0.15f);
+  const Parameter& distance = *find_parameter(ControllerId::kKeepWall, "distance");
+  EXPECT_EQ(lowest(distance, {.radius_m = 5.0f}), distance.high) << "such a robot needs a Similarity";
+}
+
 TEST(AnyController, EveryParameterReachesItsController) {
   for (const ControllerEntry& entry : kControllers) {
     for_each_parameter(entry.id, [&](const Parameter& parameter) {
