@@ -16,6 +16,14 @@ namespace mts::compact {
 template <std::uint32_t kMost>
 using Small = std::conditional_t<kMost <= 0xFF, std::uint8_t, std::conditional_t<kMost <= 0xFFFF, std::uint16_t, std::uint32_t>>;
 
+/// kCount numbers that a constant expression makes one by one.
+template <std::uint32_t kCount>
+struct List {
+  std::uint32_t item[kCount + 1] = {};
+  std::uint32_t count = 0;
+  constexpr void add(std::uint32_t x) { item[count++] = x; }
+};
+
 /// kCount numbers, the i-th of which is `Of{}(i)`. Each takes as many bytes as the largest needs.
 template <std::uint32_t kCount, class Of>
 class Numbers {

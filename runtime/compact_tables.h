@@ -6,6 +6,7 @@
 //   one list. Rules that write the same share one list. An index takes as many bytes as the largest of its array needs. What a search
 //   finds soon enough is not kept at all: which cell a term belongs to, which satellites draw attention. What all rows have in common
 //   is a constant in the code. Reading costs some instructions more, so programs for large machines keep the ordinary tables.
+//   A C++ compiler counts the steps of each constant (clang: to a million), so each is computed in one pass over what it is made of.
 #pragma once
 
 #include <bit>
@@ -62,12 +63,11 @@ class CompactTables {
     constexpr void add(std::uint32_t atom, Effect kind) {
       for (std::uint32_t i = kFull.atoms[atom].readers; i < kFull.atoms[atom + 1].readers; ++i) {
         const Readers<Ix>& r = kFull.readers[i];
-        const Word rules = kind == Effect::kKey ? r.keyed : r.good[kind == Effect::kWhenTrue];
-        for (std::uint32_t b = 0; b < 4; ++b) {
-          const Word byte = rules >> 8 * b & 0xFFu;
-          if (byte == 0) continue;
+        std::uint32_t b = 0;
+        for (Word rules = kind == Effect::kKey ? r.keyed : r.good[kind == Effect::kWhenTrue]; rules != 0; rules >>= 8, ++b) {
+          if ((rules & 0xFFu) == 0) continue;
           place[count] = (r.word * 4u + b) * 4u + static_cast<std::uint32_t>(kind);
-          bits[count++] = byte;
+          bits[count++] = rules & 0xFFu;
         }
       }
     }
@@ -90,15 +90,15 @@ class CompactTables {
   struct FeedBegin {
     constexpr std::uint32_t operator()(std::uint32_t a) const { return kFull.atoms[a].parents + kFull.atoms[a].timers; }
   };
-  struct FeedOf {
-    constexpr std::uint32_t operator()(std::uint32_t i) const {
-      std::uint32_t a = 0;
-      while (FeedBegin{}(a + 1) <= i) ++a;
-      const std::uint32_t parent = i - kFull.atoms[a].timers;
-      if (parent < kFull.atoms[a + 1].parents) return kFull.parents[parent];
-      return 2 * kN.nodes + kFull.timer_inputs[i - kFull.atoms[a + 1].parents];
+  static constexpr compact::List<kFeeds> kFeedLists = [] {
+    compact::List<kFeeds> feeds;
+    for (std::uint32_t a = 0; a < kN.atoms; ++a) {
+      for (std::uint32_t i = kFull.atoms[a].parents; i < kFull.atoms[a + 1].parents; ++i) feeds.add(kFull.parents[i]);
+      for (std::uint32_t i = kFull.atoms[a].timers; i < kFull.atoms[a + 1].timers; ++i) feeds.add(2 * kN.nodes + kFull.timer_inputs[i]);
     }
-  };
+    return feeds;
+  }();
+  struct FeedOf { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFeedLists.item[i]; } };
 
   struct HighOf { constexpr std::uint32_t operator()(std::uint32_t c) const { return kFull.cell_atoms[c].high; } };
   struct LowOf { constexpr std::uint32_t operator()(std::uint32_t c) const { return kFull.cell_atoms[c].low; } };
@@ -106,19 +106,23 @@ class CompactTables {
   /// The atoms of cells. If few cells have one, pairs of cell and atom are stored and searched.
   template <class Of>
   class Sparse {
+   public:
     static constexpr std::uint32_t kCount = [] {
       std::uint32_t n = 0;
       for (std::uint32_t c = 0; c < kN.cells(); ++c) n += Of{}(c) != 0 ? 1u : 0u;
       return n;
     }();
-    static constexpr std::uint32_t cell_of(std::uint32_t i) {
-      std::uint32_t c = 0;
-      for (;; ++c) {
-        if (Of{}(c) != 0 && i-- == 0) return c;
+
+   private:
+    static constexpr compact::List<kCount> kCells = [] {
+      compact::List<kCount> cells;
+      for (std::uint32_t c = 0; c < kN.cells(); ++c) {
+        if (Of{}(c) != 0) cells.add(c);
       }
-    }
-    struct CellAt { constexpr std::uint32_t operator()(std::uint32_t i) const { return cell_of(i); } };
-    struct AtomAt { constexpr std::uint32_t operator()(std::uint32_t i) const { return Of{}(cell_of(i)); } };
+      return cells;
+    }();
+    struct CellAt { constexpr std::uint32_t operator()(std::uint32_t i) const { return kCells.item[i]; } };
+    struct AtomAt { constexpr std::uint32_t operator()(std::uint32_t i) const { return Of{}(kCells.item[i]); } };
 
    public:
     static constexpr bool sparse = kCount * 4 < kN.cells();
@@ -157,13 +161,14 @@ class CompactTables {
 
   static constexpr std::uint32_t kAttends = kN.satellites == 0 ? 0 : kFull.attends_begin[kN.satellites];
   struct AttendedFact { constexpr std::uint32_t operator()(std::uint32_t i) const { return kFull.attends[i]; } };
-  struct AttendingSatellite {
-    constexpr std::uint32_t operator()(std::uint32_t i) const {
-      std::uint32_t s = 0;
-      while (kFull.attends_begin[s + 1] <= i) ++s;
-      return s;
+  static constexpr compact::List<kAttends> kAttending = [] {
+    compact::List<kAttends> attending;
+    for (std::uint32_t s = 0; s < kN.satellites; ++s) {
+      for (std::uint32_t i = kFull.attends_begin[s]; i < kFull.attends_begin[s + 1]; ++i) attending.add(s);
     }
-  };
+    return attending;
+  }();
+  struct AttendingSatellite { constexpr std::uint32_t operator()(std::uint32_t i) const { return kAttending.item[i]; } };
   struct AttendsBegin {
     constexpr std::uint32_t operator[](std::uint32_t satellite) const {
       std::uint32_t i = 0;
@@ -186,7 +191,15 @@ class CompactTables {
     }
     return true;
   }
-  /// The different lists of writes: for each rule its list, for each list its first rule and its beginning.
+  static constexpr std::uint32_t hash_of_writes(std::uint32_t rule) {
+    std::uint32_t hash = 0;
+    for (std::uint32_t i = kFull.rules[rule].writes; i < kFull.rules[rule + 1].writes; ++i) {
+      hash = (hash ^ std::uint32_t{kFull.writes[i].cell} << 16 ^ kFull.writes[i].value) * 0x9E37'79B1u;
+      hash ^= hash >> 15;
+    }
+    return hash;
+  }
+  /// The different lists of writes: for each rule its list, for each list its first rule and its beginning. Each is looked up by its hash.
   struct WriteLists {
     std::uint32_t list_of[kN.rules + 1] = {};
     std::uint32_t rule_of[kN.rules + 1] = {};
@@ -194,15 +207,18 @@ class CompactTables {
     std::uint32_t count = 0;
   };
   static constexpr WriteLists kLists = [] {
+    constexpr std::uint32_t kPlaces = std::bit_ceil(2 * kN.rules + 1);
+    std::uint32_t list_at[kPlaces] = {};   // counted from 1
     WriteLists w;
     for (std::uint32_t r = 0; r < kN.rules; ++r) {
-      std::uint32_t l = 0;
-      while (l < w.count && !same_writes(r, w.rule_of[l])) ++l;
-      w.list_of[r] = l;
-      if (l < w.count) continue;
-      w.rule_of[l] = r;
-      w.begin[l + 1] = w.begin[l] + (kFull.rules[r + 1].writes - kFull.rules[r].writes);
-      ++w.count;
+      std::uint32_t at = hash_of_writes(r) % kPlaces;
+      while (list_at[at] != 0 && !same_writes(r, w.rule_of[list_at[at] - 1])) at = (at + 1) % kPlaces;
+      if (list_at[at] == 0) {
+        w.rule_of[w.count] = r;
+        w.begin[w.count + 1] = w.begin[w.count] + (kFull.rules[r + 1].writes - kFull.rules[r].writes);
+        list_at[at] = ++w.count;
+      }
+      w.list_of[r] = list_at[at] - 1;
     }
     return w;
   }();
@@ -339,12 +355,7 @@ class CompactTables {
   static constexpr std::uint32_t slot(std::uint32_t satellite) { return compact::Numbers<kN.satellites, SlotOf>{}[satellite]; }
 
   /// Whether some condition asks for `zero`.
-  static constexpr bool kZeroTerms = [] {
-    for (std::uint32_t c = 0; c < kN.cells(); ++c) {
-      if (kFull.cell_atoms[c].zero != 0) return true;
-    }
-    return false;
-  }();
+  static constexpr bool kZeroTerms = Sparse<ZeroOf>::kCount != 0;
 
   /// Which cell a term belongs to, or `cells()`. Cost: a search over all cells; only where rules contradict each other.
   static constexpr std::uint32_t cell_of(std::uint32_t atom) {
