@@ -51,7 +51,7 @@ struct RobotTick {
   std::vector<Conflict> conflicts;
   std::vector<typename K::Strategy> active;
   std::optional<typename K::Strategy> strategy;
-  std::uint32_t bad_facts = 0;   ///< as in Fleet::status
+  std::uint32_t bad_facts = 0;   ///< how many facts were NaN or outside [-1, 1]
   Status status = Status::kNoStrategy;
   bool holding = false, hold_expired = false;   ///< as in mts::Decision: not hidden by bad facts and conflicts
 };
@@ -119,7 +119,7 @@ class Fleet {
   [[nodiscard]] bool drives(std::size_t robot) const { return dispatched(place(robot)) != kNone; }
   /// The strategy whose controller is to drive. Call it only if `drives()`.
   [[nodiscard]] Strategy strategy(std::size_t robot) const { return static_cast<Strategy>(dispatched(place(robot))); }
-  /// Facts that are bad count as they are given now, also since the last tick.
+  /// The worst thing that happened on the last tick, as in mts::Decision. Facts that have been given since then count from the next tick on.
   [[nodiscard]] Status status(std::size_t robot) const;
   /// As in mts::Decision: whether the last strategy goes on although none is active, or has gone on for as long as it may.
   [[nodiscard]] bool holding(std::size_t robot) const { return driving(place(robot)) == Status::kHolding; }
@@ -159,7 +159,7 @@ class Fleet {
     bool given = true;     ///< some fact is new
     bool quiet = false;    ///< the last tick changed nothing
     bool passed = false;
-    bool bad_facts = false;   ///< some fact may be bad
+    std::vector<std::uint64_t> bad;   ///< by fact and word: robots for which it was bad on the last tick; empty as long as none was given
     std::int64_t due_us = 0;  ///< if quiet: no timer runs out earlier
     std::uint64_t lonely[kPlaneWords] = {};   ///< robots that are alone
     std::vector<std::unique_ptr<Alone>> alone;
@@ -169,6 +169,7 @@ class Fleet {
   void begin_tick(Duration since_last);
   void tick_blocks(std::uint32_t first, std::uint32_t end, unsigned part);
   void tick_block(std::uint32_t block, unsigned part, FleetAhead& ahead);
+  void note_bad_facts(std::uint32_t block);
   [[nodiscard]] std::int64_t due_us(std::uint32_t block);
   static void fall_back(void* fleet, const FleetBlock& block, std::uint32_t first_word, const std::uint64_t* robots, std::uint32_t words);
 

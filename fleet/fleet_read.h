@@ -40,10 +40,10 @@ bool Fleet<K>::active(FleetPlace at) const {
 
 template <class K>
 std::uint32_t Fleet<K>::bad_facts(FleetPlace at) const {
-  if (!blocks_[at.block].bad_facts) return 0;
-  std::uint32_t bad = 0;
-  for (std::uint32_t f = 0; f < K::kShape.facts; ++f) bad += memory_.test(at, layout_.facts[f].bad) ? 1u : 0u;
-  return bad;
+  const std::vector<std::uint64_t>& bad = blocks_[at.block].bad;
+  std::uint32_t sum = 0;
+  for (std::size_t i = at.word(); i < bad.size(); i += kPlaneWords) sum += (bad[i] & at.bit()) != 0 ? 1u : 0u;
+  return sum;
 }
 
 template <class K>

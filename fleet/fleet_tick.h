@@ -47,9 +47,9 @@ void Fleet<K>::give(std::uint32_t block, std::size_t word, Fact fact, std::uint6
   const FactBits bits = FactPlanes<K>::bits(f, certainty);
   std::uint64_t changed = 0;
   Block& b = blocks_[block];
-  if (bits.bad) b.bad_facts = true;
+  if (bits.bad && b.bad.empty()) b.bad.assign(std::size_t{K::kShape.facts} * kPlaneWords, 0);
   auto* const given = reinterpret_cast<std::uint64_t*>(memory_.given(block)) + word;
-  const std::uint32_t planes = memory_.stored_given(), bad = b.bad_facts ? kNoPlane : layout_.facts[f].bad;
+  const std::uint32_t planes = memory_.stored_given(), bad = b.bad.empty() ? layout_.facts[f].bad : kNoPlane;
   FactPlanes<K>::each(layout_.facts[f], bits, [&](std::uint32_t plane, bool bit) {
     if (plane >= planes || plane == bad) return;
     std::uint64_t& there = given[std::size_t{plane} * kPlaneWords];
@@ -99,8 +99,15 @@ void Fleet<K>::tick_blocks(std::uint32_t first, std::uint32_t end, unsigned part
 }
 
 template <class K>
+void Fleet<K>::note_bad_facts(std::uint32_t block) {
+  std::vector<std::uint64_t>& bad = blocks_[block].bad;
+  for (std::uint32_t i = 0; i < bad.size(); ++i) bad[i] = memory_.read(block, layout_.facts[i / kPlaneWords].bad, i % kPlaneWords);
+}
+
+template <class K>
 void Fleet<K>::tick_block(std::uint32_t block, unsigned part, FleetAhead& ahead) {
   Block& b = blocks_[block];
+  note_bad_facts(block);
   std::erase_if(b.alone, [](const auto& alone) { return alone->back; });
   for (std::uint64_t& word : b.lonely) word = 0;
   for (const auto& alone : b.alone) b.lonely[alone->lane / 64] |= std::uint64_t{1} << (alone->lane % 64);

@@ -149,6 +149,28 @@ TEST(Fleet, CountsFactsThatAreNoCertainty) {
   EXPECT_EQ(fleet.strategy(3), Strategy::Drive_ahead) << "7 is clamped to 1";
 }
 
+// Rules contradict each other about robot 3, so that the engine has it; the kernel has robot 4. Who asks cannot tell them apart.
+TEST(Fleet, CountsBadFactsOfTheLastTickForAllRobotsAlike) {
+  Fleet fleet = standing(10, {.traced = true});
+  fleet.set(3, Fact::Wall, 0.8f);
+  fleet.set(3, Fact::Button, 0.6f);
+  fleet.tick(kTick);
+  ASSERT_EQ(fleet.alone(), 1u);
+  fleet.set(3, Fact::Button, 0.0f);
+  const auto tell = [&](float noise, std::uint32_t bad_now, std::uint32_t bad_then) {
+    for (const std::size_t robot : {3u, 4u}) fleet.set(robot, Fact::Noise, noise);
+    for (const std::size_t robot : {3u, 4u}) EXPECT_EQ(fleet.read(robot).bad_facts, bad_now) << robot;
+    EXPECT_EQ(fleet.status(4), bad_now != 0 ? mts::Status::kBadFact : mts::Status::kNoStrategy);
+    fleet.tick(kTick);
+    for (const std::size_t robot : {3u, 4u}) {
+      EXPECT_EQ(fleet.read(robot).bad_facts, bad_then) << robot;
+      EXPECT_EQ(fleet.status(robot) == mts::Status::kBadFact, bad_then != 0) << robot;
+    }
+  };
+  tell(std::numeric_limits<float>::quiet_NaN(), 0, 1);
+  tell(0.0f, 1, 0);
+}
+
 TEST(Fleet, DecidesTheSameOnSeveralThreads) {
   Fleet one = standing(5'000), many = standing(5'000);
   mts::Crew crew(3);
