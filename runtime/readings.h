@@ -75,11 +75,13 @@ struct NumberSlot {
   void forget() { static_cast<Store*>(static_cast<void*>(this))->forget(kReading); }
 };
 
-/// One of an array of sensors, for the length of an assignment.
+/// One of an array of sensors, for the length of an assignment. It cannot be copied, and is no reading: nothing tells what was assigned.
 template <class Store>
 class NumberElement {
  public:
   NumberElement(Store* store, std::uint32_t reading) : store_(store), reading_(reading) {}
+  NumberElement(const NumberElement&) = delete;
+  NumberElement& operator=(const NumberElement&) = delete;
   NumberElement& operator=(Reading reading) {
     store_->set(reading_, reading.value, reading.at);
     return *this;
@@ -109,6 +111,8 @@ template <class Store, class Texts>
 class TextElement {
  public:
   TextElement(Store* store, std::uint32_t reading) : store_(store), reading_(reading) {}
+  TextElement(const TextElement&) = delete;
+  TextElement& operator=(const TextElement&) = delete;
   TextElement& operator=(TextReading reading) {
     if (reading.value == nullptr) forget();
     else store_->set(reading_, static_cast<float>(find_text(Texts::kTexts, Texts::kCount, reading.value)), reading.at);
