@@ -352,7 +352,7 @@ void Perception<P>::reset() {
   PerceptionState state = attach();
   PerceptionEngine<Ix>(P::kTables, state).reset();
   detach(state);
-  facts_ = Facts{};
+  facts_.clear();   // in place: a fresh object to assign would need 4 bytes of stack a fact
 }
 
 template <class P>
