@@ -54,7 +54,7 @@ class CompactMind {
   [[nodiscard]] bool attended(typename K::Fact fact) const { return state_.attended[static_cast<std::uint32_t>(fact)] != 0; }
   /// Sets a satellite between two ticks, for tests: see Mind::set. False, and nothing is set, if no rule writes the satellite:
   /// a compact mind has no memory for it, only its initial value among the constants.
-  [[nodiscard]] bool set(typename K::Satellite satellite, float value);
+  bool set(typename K::Satellite satellite, float value);
 
  private:
   using TheEngine = Engine<State, CompactTables<K>>;

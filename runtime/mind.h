@@ -259,8 +259,9 @@ class Mind {
 
   /// Sets a satellite between two ticks, for tests. Rules react to the new value on the next tick. Unlike a rule, `set` does not lower
   /// the other members of an exclusive group. NaN is taken as 0; values outside [-1, 1] are clamped. Timers, facts in view and fired
-  /// rules are left alone: to restore a saved state, assign a copy of the mind.
-  void set(typename K::Satellite satellite, float value);
+  /// rules are left alone: to restore a saved state, assign a copy of the mind. Always true here; a compact mind has no memory for some
+  /// satellites, and refuses these.
+  bool set(typename K::Satellite satellite, float value);
 
  private:
   Engine<State, ConstantTables<K>> engine() { return {ConstantTables<K>{}, state_}; }
@@ -320,8 +321,9 @@ void Mind<K>::give(typename K::Fact fact, float certainty) {
 }
 
 template <class K>
-void Mind<K>::set([[maybe_unused]] typename K::Satellite satellite, [[maybe_unused]] float value) {
+bool Mind<K>::set([[maybe_unused]] typename K::Satellite satellite, [[maybe_unused]] float value) {
   if constexpr (K::kShape.satellites != 0) engine().poke(static_cast<std::uint32_t>(satellite), value);
+  return true;
 }
 
 }  // namespace mts

@@ -355,7 +355,7 @@ TEST(Mind, IsRestoredByAssigningACopy) {
 TEST(Mind, TakesASatelliteThatIsSetAsItTakesAFact) {
   Mind mind;
   Facts facts;
-  mind.set(Satellite::Lamp, 7.0f);
+  EXPECT_TRUE(mind.set(Satellite::Lamp, 7.0f));
   EXPECT_EQ(mind.value(Satellite::Lamp), 1.0f);
   mind.set(Satellite::Lamp, -INFINITY);
   EXPECT_EQ(mind.value(Satellite::Lamp), -1.0f);
