@@ -24,6 +24,13 @@
 
 namespace mts {
 
+/// A duration as std::chrono has them: a number of periods, each the fraction num / den of a second. (<chrono> itself is not freestanding.)
+template <class D>
+concept ChronoDuration = requires(const D& d) {
+  d.count();
+  D::period::num / D::period::den;
+};
+
 /// The time between two ticks, in whole microseconds, from 0 to about 71 minutes. The functions below clamp to that range.
 struct Duration {
   std::uint32_t us = 0;
@@ -33,6 +40,14 @@ struct Duration {
   template <std::unsigned_integral N>
     requires(sizeof(N) <= sizeof(std::uint32_t))
   constexpr explicit Duration(N microseconds) : us(microseconds) {}
+  /// Takes durations of std::chrono: `mind.tick(facts, 20ms)`, `mind.tick(facts, now - before)`. Clamps to the range; finer ones are rounded to
+  /// the nearest microsecond, in integers if they count in integers.
+  template <ChronoDuration D>
+  constexpr Duration(const D& d) : Duration(rounded<D>(d.count())) {}
+
+ private:
+  template <class D, class N>
+  static constexpr Duration rounded(N count);
 };
 template <std::integral N>
 [[nodiscard]] constexpr Duration microseconds(N n) {
@@ -71,6 +86,30 @@ template <std::integral N>
   if (n <= 0) return {};
   const auto whole = static_cast<std::uint64_t>(n);
   return Duration(whole > 4'294u ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(whole) * 1'000'000u);
+}
+template <class D, class N>
+constexpr Duration Duration::rounded(N count) {
+  constexpr auto kNum = static_cast<std::uint64_t>(D::period::num), kDen = static_cast<std::uint64_t>(D::period::den);
+  if constexpr (std::floating_point<N>) {
+    if constexpr (kNum == 1 && kDen == 1) return seconds(count);   // a float needs no double
+    else return seconds(static_cast<double>(count) * static_cast<double>(kNum) / static_cast<double>(kDen));
+  } else {
+    constexpr std::uint64_t kCommon = [] {   // the greatest common divisor
+      std::uint64_t a = kDen, b = 1'000'000;
+      while (b != 0) {
+        const std::uint64_t rest = a % b;
+        a = b;
+        b = rest;
+      }
+      return a;
+    }();
+    constexpr std::uint64_t kTimes = kNum * (1'000'000 / kCommon), kOver = kDen / kCommon;
+    static_assert(kTimes <= ~std::uint64_t{0} / 2 / kOver, "the periods of this duration are no plain parts or multiples of a microsecond");
+    if (count <= 0) return {};
+    const auto n = static_cast<std::uint64_t>(count), whole = n / kOver;
+    if (whole > 0xFFFF'FFFFu / kTimes) return Duration(0xFFFF'FFFFu);
+    return microseconds(whole * kTimes + (n % kOver * kTimes + kOver / 2) / kOver);
+  }
 }
 template <std::floating_point N>
 Duration microseconds(N n) = delete;

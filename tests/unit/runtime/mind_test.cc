@@ -66,69 +66,6 @@ TEST(Names, OfWhatIsNoMemberAreAQuestionMark) {
   EXPECT_STREQ(name(static_cast<Rule>(0xFFFF)), "?");
 }
 
-TEST(Duration, IsTheLongestThereIsWhereATimeDoesNotFit) {
-  static_assert(milliseconds(4'294'967).us == 4'294'967'000u);
-  static_assert(milliseconds(4'294'968).us == 0xFFFF'FFFFu);
-  static_assert(milliseconds(5'000'000'000).us == 0xFFFF'FFFFu);
-  static_assert(microseconds(0xFFFF'FFFF).us == 0xFFFF'FFFFu);
-  static_assert(microseconds(0x1'0000'0000).us == 0xFFFF'FFFFu);
-  static_assert(seconds(4294.9673).us == 0xFFFF'FFFFu);
-  EXPECT_EQ(microseconds(static_cast<std::uint64_t>(std::chrono::microseconds(std::chrono::minutes(72)).count())).us, 0xFFFF'FFFFu);
-}
-
-TEST(Duration, IsNoneWhereATimeIsNegative) {
-  static_assert(milliseconds(-5).us == 0);
-  static_assert(microseconds(std::int64_t{-1}).us == 0);
-  static_assert(seconds(-0.1).us == 0);
-  static_assert(seconds(std::numeric_limits<double>::quiet_NaN()).us == 0);
-}
-
-template <class T>
-concept Time = requires(T n) { milliseconds(n); microseconds(n); };
-static_assert(Time<int> && Time<std::uint64_t> && !Time<double> && !Time<float>, "0.02 milliseconds would be none");
-static_assert(!std::is_convertible_v<int, Duration>);
-static_assert(std::is_constructible_v<Duration, std::uint32_t> && std::is_constructible_v<Duration, std::uint16_t>);
-static_assert(!std::is_constructible_v<Duration, int> && !std::is_constructible_v<Duration, double> && !std::is_constructible_v<Duration, std::uint64_t>,
-              "-1, 0.02 and 2^32 would be other times");
-
-TEST(Duration, OfSecondsIsToTheNearestMicrosecond) {
-  static_assert(seconds(0.02).us == 20'000);
-  static_assert(seconds(0.1).us == 100'000);
-  static_assert(seconds(1e-6).us == 1);
-}
-
-TEST(Duration, OfSecondsInAFloatIsWhatItIsInADouble) {
-  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
-  static_assert(seconds(0.02f).us == 20'000);
-  static_assert(seconds(0.1f).us == 100'000);
-  static_assert(seconds(4e-7f).us == 0 && seconds(6e-7f).us == 1);
-  static_assert(seconds(0.0f).us == 0 && seconds(-0.0f).us == 0 && seconds(-0.1f).us == 0 && seconds(-kInfinity).us == 0);
-  static_assert(seconds(kNaN).us == 0 && seconds(-kNaN).us == 0);
-  static_assert(seconds(kInfinity).us == 0xFFFF'FFFFu && seconds(1e30f).us == 0xFFFF'FFFFu);
-  static_assert(seconds(std::numeric_limits<float>::denorm_min()).us == 0);
-  for (std::uint32_t word = 0; word < 0x7F80'0000u; word += 10'007) {   // all exponents, 840 fractions each
-    const auto s = std::bit_cast<float>(word);
-    ASSERT_EQ(seconds(s).us, seconds(static_cast<double>(s)).us) << s;
-  }
-  for (const float s : {std::nextafter(4294.967295f, 0.0f), 4294.967295f, std::nextafter(4294.967295f, 5e3f), 8191.9995f, 8192.0f}) {
-    EXPECT_EQ(seconds(s).us, seconds(static_cast<double>(s)).us) << s;
-  }
-}
-
-TEST(Duration, OfWholeSecondsIsExact) {
-  static_assert(seconds(2).us == 2'000'000 && seconds(4'294u).us == 4'294'000'000u);
-  static_assert(seconds(4'295).us == 0xFFFF'FFFFu && seconds(std::int64_t{1} << 40).us == 0xFFFF'FFFFu);
-  static_assert(seconds(-1).us == 0 && seconds(2.0L).us == 2'000'000);
-}
-
-TEST(Elapsed, IsRightThoughTheCounterHasWrapped) {
-  static_assert(mts::elapsed(std::uint8_t{3}, std::uint8_t{250}) == 9);
-  static_assert(mts::elapsed(std::uint16_t{5}, std::uint16_t{65'530}) == 11);
-  static_assert(mts::elapsed(std::uint32_t{5}, 0xFFFF'FFFAu) == 11);
-  static_assert(milliseconds(mts::elapsed(std::uint16_t{5}, std::uint16_t{65'530})).us == 11'000);
-  static_assert(milliseconds(std::uint16_t{5} - std::uint16_t{65'530}).us == 0, "what it is there for");
-}
-
 TEST(Mind, FirstTickMakesNoEvents) {
   Mind mind;
   Facts facts;
