@@ -21,15 +21,15 @@
 #include "../runtime/table.h"
 
 #if defined(__x86_64__)
-#define KB_FLEET_X86 1   // kernels of 256 and 512 bits are there as well
+#define MTS_FLEET_X86 1   // kernels of 256 and 512 bits are there as well
 #endif
 
 namespace mts {
 
 /// Number of this contract, which includes what fleet.h and kernel_code.h require of emitted files. Every change of the contract raises it.
 /// The number of the tables is kAbi.
-inline constexpr std::uint32_t kFleetAbi = 1;
-// check_abi: 1 14d8b013a38c
+inline constexpr std::uint32_t kFleetAbi = 2;
+// check_abi: 2 20766f152709
 
 inline constexpr std::uint32_t kBlockRobots = 512;
 inline constexpr std::uint32_t kPlaneBytes = kBlockRobots / 8;
@@ -127,7 +127,7 @@ struct FleetKernels {
 
 /// How many of the widths 64, 256, 512 this processor supports.
 [[nodiscard]] inline std::uint32_t fleet_widths() {
-#ifdef KB_FLEET_X86
+#ifdef MTS_FLEET_X86
   return __builtin_cpu_supports("avx512f") != 0 ? 3 : __builtin_cpu_supports("avx2") != 0 ? 2 : 1;
 #else
   return 1;

@@ -11,7 +11,7 @@
 #include KB_FLEET_SOURCE
 #undef KB_FLEET_WIDTH
 
-#ifdef KB_FLEET_X86
+#ifdef MTS_FLEET_X86
 #include <immintrin.h>
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)

@@ -36,7 +36,7 @@ struct Summaries<kWords, true> {
 }  // namespace compact
 
 // name, type, length
-#define KB_COMPACT_ARRAYS(X)                                                                                           \
+#define MTS_COMPACT_ARRAYS(X)                                                                                          \
   X(start_us, std::uint32_t, shape.timers)    /* since when a timer's condition holds, modulo 2^32 */                  \
   X(fact_cf, float, shape.facts)                                                                                       \
   X(satellite_cf, float, bounds.written)      /* by slot: see CompactTables::slot */                                   \
@@ -44,7 +44,7 @@ struct Summaries<kWords, true> {
   X(blend_value, float, bounds.blends)                                                                                 \
   X(truth_set, Word, Shape::words_for(shape.atoms))                                                                    \
   X(strategy_set, Word, Shape::words_for(shape.strategies)) /* those that ran on the last tick */                      \
-  X(rules, RuleWord, shape.words)             /* this and the sets below mean what they mean in KB_STATE_ARRAYS */     \
+  X(rules, RuleWord, shape.words)             /* this and the sets below mean what they mean in MTS_STATE_ARRAYS */     \
   X(node_set, Word, Shape::words_for(shape.nodes))                                                                     \
   X(node_sum, Word, Shape::summary_for(Shape::words_for(shape.nodes)))                                                 \
   X(timer_set, Word, Shape::words_for(shape.timers))                                                                   \
@@ -77,7 +77,7 @@ struct CompactState : Scalars<compact::Small<compact::largest(kShape)>>, compact
   static constexpr Shape shape = kShape;
   static constexpr CompactShape bounds = kBounds;
 #define KB_ARRAY(name, type, length) type name[(length) != 0 ? (length) : 1];
-  KB_COMPACT_ARRAYS(KB_ARRAY)
+  MTS_COMPACT_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY
 
   /// The last `lost` items of event_list: facts that went out of view.

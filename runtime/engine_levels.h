@@ -15,7 +15,7 @@ inline void Engine<S, T>::clear() {
     [[maybe_unused]] const Shape& shape = t->shape;
 #define KB_ARRAY(name, type, length) \
   for (std::uint32_t i = 0; i < (length); ++i) s.name[i] = type{};
-    KB_STATE_ARRAYS(KB_ARRAY)
+    MTS_STATE_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY
   }
 }

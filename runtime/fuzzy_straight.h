@@ -172,3 +172,5 @@ template <std::uint32_t kStride>
 }
 
 }  // namespace mts
+
+#undef MTS_LANES

@@ -162,10 +162,10 @@ template <class Ix>
     for (std::uint64_t i = bytes; i % 4 != 0; ++i) slack |= *at++;
   };
 #define KB_ARRAY(name, type, length) section(tables.name, length);
-  KB_IMAGE_TABLES(KB_ARRAY)
+  MTS_IMAGE_TABLES(KB_ARRAY)
 #undef KB_ARRAY
 #define KB_ARRAY(name, type, length) section(out.names.name, length);
-  KB_IMAGE_NAMES(KB_ARRAY)
+  MTS_IMAGE_NAMES(KB_ARRAY)
 #undef KB_ARRAY
   return slack == 0;
 }

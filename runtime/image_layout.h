@@ -53,8 +53,8 @@ struct TimerKey {
   }
 };
 
-// Member of Tables<Ix>, type, length. Those of KB_IMAGE_NAMES are beside the tables.
-#define KB_IMAGE_TABLES(X)                                                                 \
+// Member of Tables<Ix>, type, length. Those of MTS_IMAGE_NAMES are beside the tables.
+#define MTS_IMAGE_TABLES(X)                                                                \
   X(atoms, mts::Atom<Ix>, n.atoms + 1)                                                      \
   X(readers, mts::Readers<Ix>, h.readers)                                                   \
   X(parents, Ix, h.parents)                                                                 \
@@ -91,7 +91,7 @@ struct TimerKey {
   X(atom_cell, Ix, h.has_conflicts() ? n.atoms : 0)                                         \
   X(atom_term, std::uint8_t, h.has_conflicts() ? n.atoms : 0)
 
-#define KB_IMAGE_NAMES(X)                                                                  \
+#define MTS_IMAGE_NAMES(X)                                                                 \
   X(begin, std::uint32_t, h.names() + 1) /* into `bytes` */                                \
   X(order, std::uint32_t, h.names())     /* of each kind by itself, ascending by name */   \
   X(timer_key, mts::TimerKey, n.timers)                                                    \
@@ -101,14 +101,14 @@ struct TimerKey {
 /// Bytes of a row of each section, where indexes are `Ix`.
 #define KB_ARRAY(name, type, length) sizeof(type),
 template <class Ix>
-inline constexpr std::uint8_t kImageRows[] = {KB_IMAGE_TABLES(KB_ARRAY) KB_IMAGE_NAMES(KB_ARRAY)};
+inline constexpr std::uint8_t kImageRows[] = {MTS_IMAGE_TABLES(KB_ARRAY) MTS_IMAGE_NAMES(KB_ARRAY)};
 #undef KB_ARRAY
 
 /// Bytes of an image with this head. No count may be larger than the largest file.
 [[nodiscard]] constexpr std::uint64_t image_bytes(const ImageHead& h) {
   const Shape& n = h.shape;
 #define KB_ARRAY(name, type, length) length,
-  const std::uint32_t lengths[] = {KB_IMAGE_TABLES(KB_ARRAY) KB_IMAGE_NAMES(KB_ARRAY)};
+  const std::uint32_t lengths[] = {MTS_IMAGE_TABLES(KB_ARRAY) MTS_IMAGE_NAMES(KB_ARRAY)};
 #undef KB_ARRAY
   const std::uint8_t* rows = h.index_bytes == 2 ? kImageRows<std::uint16_t> : kImageRows<std::uint32_t>;
   std::uint64_t total = sizeof(ImageHead);

@@ -50,7 +50,7 @@ struct Scalars {
 };
 
 // name, type, length
-#define KB_STATE_ARRAYS(X)                                                                                             \
+#define MTS_STATE_ARRAYS(X)                                                                                            \
   X(cf, float, shape.cells())                  /* certainty of each cell */                                            \
   X(before, float, shape.satellites)           /* of each in `touched_list`: the value before this tick */             \
   X(start_us, std::int64_t, shape.timers)      /* since when a timer's condition holds */                              \
@@ -99,7 +99,7 @@ struct StaticState : Scalars<Index>, MaskState<kShape> {
   static constexpr bool kCompact = false;
   static constexpr Shape shape = kShape;
 #define KB_ARRAY(name, type, length) type name[(length) != 0 ? (length) : 1];
-  KB_STATE_ARRAYS(KB_ARRAY)
+  MTS_STATE_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY
 };
 
@@ -110,14 +110,14 @@ struct DynamicState : Scalars<Index> {
   static constexpr bool kConstantShape = false;
   static constexpr bool kCompact = false;
 #define KB_ARRAY(name, type, length) type* name = nullptr;
-  KB_STATE_ARRAYS(KB_ARRAY)
+  MTS_STATE_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY
 
   /// Bytes of the block for this shape; the block must be aligned to 8. An image may want more than a machine of 32 bits can address.
   [[nodiscard]] static constexpr std::uint64_t bytes(const Shape& shape) {
     std::uint64_t total = 0;
 #define KB_ARRAY(name, type, length) total += (std::uint64_t{sizeof(type)} * (length) + 7u) & ~std::uint64_t{7};
-    KB_STATE_ARRAYS(KB_ARRAY)
+    MTS_STATE_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY
     return total;
   }
@@ -127,7 +127,7 @@ struct DynamicState : Scalars<Index> {
 #define KB_ARRAY(name, type, length)                   \
   name = static_cast<type*>(static_cast<void*>(block)); \
   block += (sizeof(type) * (length) + 7u) & ~std::size_t{7};
-    KB_STATE_ARRAYS(KB_ARRAY)
+    MTS_STATE_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY
   }
 };

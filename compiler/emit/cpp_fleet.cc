@@ -199,7 +199,7 @@ Cpp cpp_fleet(const program::Program& program, const tables::Tables& tables, con
                  "const mts::FleetKernels& mts::FleetForm<::{0}::Knowledge>::kernels(std::uint32_t most_bits) {{\n"
                  "  static constexpr mts::FleetKernels kKernels[] = {{\n"
                  "      {{64, ::{0}::fleet_kernel::width_64::tick_block<false>, ::{0}::fleet_kernel::width_64::tick_block<true>}},\n"
-                 "#ifdef KB_FLEET_X86\n"
+                 "#ifdef MTS_FLEET_X86\n"
                  "      {{256, ::{0}::fleet_kernel::width_256::tick_block<false>, ::{0}::fleet_kernel::width_256::tick_block<true>}},\n"
                  "      {{512, ::{0}::fleet_kernel::width_512::tick_block<false>, ::{0}::fleet_kernel::width_512::tick_block<true>}},\n"
                  "#endif\n"

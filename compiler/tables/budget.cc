@@ -15,7 +15,7 @@ template <class Ix>
 std::size_t table_bytes(const Tables& t) {
   std::size_t total = 0;
 #define KB_ARRAY(name, type, length) total += t.name.size() * sizeof(type);
-  KB_IMAGE_TABLES(KB_ARRAY)
+  MTS_IMAGE_TABLES(KB_ARRAY)
 #undef KB_ARRAY
   return total;
 }

@@ -41,7 +41,7 @@ std::size_t state_bytes(const mts::Shape& shape, const mts::CompactShape& bounds
   };
   if (shape.words > kWordBits) add(alignof(Word), 2 * sizeof(Word), Shape::summary_for(shape.words));
 #define KB_ARRAY(name, type, length) add(alignof(type), sizeof(type), length);
-  KB_COMPACT_ARRAYS(KB_ARRAY)
+  MTS_COMPACT_ARRAYS(KB_ARRAY)
 #undef KB_ARRAY
   return (total + alignof(Scalars<Ix>) - 1) / alignof(Scalars<Ix>) * alignof(Scalars<Ix>);
 }

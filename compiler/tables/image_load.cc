@@ -97,7 +97,7 @@ Tables recall_tables(const LoadedImage& image) {
     t.hold_limit_us = from.hold_limit_us;
     t.narrow = sizeof(from.idle_strategy) == 2;
 #define KB_ARRAY(name, type, length) widen(t.name, from.name, length);
-    KB_IMAGE_TABLES(KB_ARRAY)
+    MTS_IMAGE_TABLES(KB_ARRAY)
 #undef KB_ARRAY
     recall_origins(t);
     recall_keys(t);

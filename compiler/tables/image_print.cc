@@ -19,10 +19,10 @@ void print_sections(ImageOut out, const mts::ImageHead& h) {
     at += (count * row + 3) & ~std::uint64_t{3};
   };
 #define X(name, type, length) section(#name, length, sizeof(type));
-  KB_IMAGE_TABLES(X)
+  MTS_IMAGE_TABLES(X)
 #undef X
 #define X(name, type, length) section("names." #name, length, sizeof(type));
-  KB_IMAGE_NAMES(X)
+  MTS_IMAGE_NAMES(X)
 #undef X
 }
 

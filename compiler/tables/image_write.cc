@@ -238,7 +238,7 @@ std::vector<std::uint32_t> timer_order(const std::vector<mts::TimerKey>& keys) {
   return order;
 }
 
-/// Writes the tables in the order of KB_IMAGE_TABLES.
+/// Writes the tables in the order of MTS_IMAGE_TABLES.
 void write_tables(ImageBytes& out, const Tables& t) {
   const ImageValues values = image_values(t);
   out.rows(t.atoms);

@@ -12,7 +12,7 @@ mts::Tables<I> view(const Tables& t) {
   v.idle_strategy = t.idle_strategy;
   v.hold_limit_us = t.hold_limit_us;
 #define KB_ARRAY(name, type, length) v.name = t.name.empty() ? nullptr : t.name.data();
-  KB_IMAGE_TABLES(KB_ARRAY)
+  MTS_IMAGE_TABLES(KB_ARRAY)
 #undef KB_ARRAY
   return v;
 }
