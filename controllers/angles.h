@@ -15,7 +15,7 @@ inline constexpr float kRadPerDeg = kPi / 180.0f;
 
 /// The angle in (-pi, pi] that differs from x by whole turns; 0 for NaN and for x farther than 1e6 rad from 0.
 /// Error: 1e-7 per turn taken off.
-[[nodiscard]] constexpr float wrapped(float x) noexcept {
+[[nodiscard]] constexpr float wrapped_angle(float x) noexcept {
   if (!(magnitude(x) < 1e6f)) return 0.0f;
   const float turns = x * (0.5f / kPi);
   const float whole = static_cast<float>(static_cast<int>(turns + (turns < 0.0f ? -0.5f : 0.5f)));
@@ -27,7 +27,7 @@ inline constexpr float kRadPerDeg = kPi / 180.0f;
 /// sin x; at most 2e-6 wrong for |x| <= 100.
 /// Reduces x to [-pi/2, pi/2], then takes the power series up to x^11 (the terms left out are below 6e-8).
 [[nodiscard]] constexpr float sine(float x) noexcept {
-  float a = wrapped(x);
+  float a = wrapped_angle(x);
   if (a > 0.5f * kPi) a = kPi - a;
   if (a < -0.5f * kPi) a = -kPi - a;
   const float q = a * a;
@@ -39,7 +39,7 @@ inline constexpr float kRadPerDeg = kPi / 180.0f;
   return a + a * q * series;
 }
 /// cos x; at most 2e-6 wrong for |x| <= 100.
-[[nodiscard]] constexpr float cosine(float x) noexcept { return sine(wrapped(x) + 0.5f * kPi); }
+[[nodiscard]] constexpr float cosine(float x) noexcept { return sine(wrapped_angle(x) + 0.5f * kPi); }
 
 /// The angle of the point (x, y), in (-pi, pi]; 0 for (0, 0). At most 1e-6 wrong.
 /// Takes the power series of arctan t up to t^13 for t <= tan(pi/8); for larger t, arctan t = pi/4 + arctan((t - 1)/(t + 1)).

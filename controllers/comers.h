@@ -117,7 +117,7 @@ class Comers {
       way += before(k).since_m;
     }
     meanwhile.speed_m_s = greatest(meanwhile.speed_m_s, way / age);
-    meanwhile.turn_rad_s = greatest(meanwhile.turn_rad_s, magnitude(wrapped(before(to).heading_rad - before(from).heading_rad)) / age);
+    meanwhile.turn_rad_s = greatest(meanwhile.turn_rad_s, magnitude(wrapped_angle(before(to).heading_rad - before(from).heading_rad)) / age);
   }
 
   /// The distance from the robot's centre to the comer's lane; kOutOfRange: nobody comes.

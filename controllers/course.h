@@ -53,7 +53,7 @@ class Course {
     bend_rad_ = 0.0f;
     spot_ = false;
     if (piece_ + 1 >= count_) return;
-    bend_rad_ = wrapped(pieces_[piece_ + 1].heading_rad - pieces_[piece_].heading_rad);
+    bend_rad_ = wrapped_angle(pieces_[piece_ + 1].heading_rad - pieces_[piece_].heading_rad);
     const float half = 0.5f * magnitude(bend_rad_);
     if (half < 0.01f) return;
     spot_ = half > 60.0f * kRadPerDeg || !(radius_m_ > 0.01f);
@@ -70,7 +70,7 @@ class Course {
     OnCourse on;
     on.along_m = dx * ux + dy * uy;
     on.left_m = dy * ux - dx * uy;
-    on.turned_rad = wrapped(place.heading_rad - piece.heading_rad);
+    on.turned_rad = wrapped_angle(place.heading_rad - piece.heading_rad);
     if (piece_ + 1 < count_) on.to_bend_m = piece.length_m - tangent_m_ - on.along_m;
     return on;
   }
@@ -100,7 +100,7 @@ constexpr OnCourse Course::on_bend(const Place& place) const noexcept {
   on.to_bend_m = 0.0f;
   if (spot_) {
     on = on_straight(place);
-    on.turned_rad = wrapped(place.heading_rad - next.heading_rad);
+    on.turned_rad = wrapped_angle(place.heading_rad - next.heading_rad);
     on.to_bend_m = 0.0f;
     on.on_the_spot = true;
     return on;
@@ -112,7 +112,7 @@ constexpr OnCourse Course::on_bend(const Place& place) const noexcept {
   const float rx = place.x_m - cx, ry = place.y_m - cy;
   const float tangent_heading = angle_of(rx, ry) + side * 0.5f * kPi;
   on.left_m = side * (bend_radius_m_ - square_root(rx * rx + ry * ry));
-  on.turned_rad = wrapped(place.heading_rad - tangent_heading);
+  on.turned_rad = wrapped_angle(place.heading_rad - tangent_heading);
   on.curvature_1_m = side / bend_radius_m_;
   return on;
 }

@@ -64,7 +64,7 @@ class Crossing {
     const float back = in_m_ + body.line_ahead_m - past;
     Place begin{-back * cosine(headings.in), -back * sine(headings.in), headings.in};
     // A robot that came to the line from the side, on its way round something, has the row on the line and its centre anywhere.
-    if (senses.heading_known && magnitude(wrapped(senses.heading_rad - headings.in)) > kAskew_rad) {
+    if (senses.heading_known && magnitude(wrapped_angle(senses.heading_rad - headings.in)) > kAskew_rad) {
       const float row = body.line_ahead_m - past;
       begin.x_m = -in_m_ * cosine(headings.in) - row * cosine(senses.heading_rad);
       begin.y_m = -in_m_ * sine(headings.in) - row * sine(senses.heading_rad);
@@ -131,12 +131,12 @@ class Crossing {
   [[nodiscard]] static Headings headings_of(const Task& task, const Senses& senses) noexcept {
     constexpr float kNear = 40.0f * kRadPerDeg, kSlant = 70.0f * kRadPerDeg;
     const float turn = angle_of_turn(task.turn);
-    const float guess = wrapped(task.exit_heading_rad - turn);
+    const float guess = wrapped_angle(task.exit_heading_rad - turn);
     Headings headings{task.entry_heading_rad, task.exit_heading_rad};
     if (task.entry_known) return headings;
-    const bool fits = !senses.heading_known || magnitude(wrapped(senses.heading_rad - guess)) < kNear;
-    headings.in = fits ? guess : wrapped(senses.heading_rad);
-    if (magnitude(wrapped(headings.out - headings.in - turn)) > kSlant) headings.out = wrapped(headings.in + turn);
+    const bool fits = !senses.heading_known || magnitude(wrapped_angle(senses.heading_rad - guess)) < kNear;
+    headings.in = fits ? guess : wrapped_angle(senses.heading_rad);
+    if (magnitude(wrapped_angle(headings.out - headings.in - turn)) > kSlant) headings.out = wrapped_angle(headings.in + turn);
     return headings;
   }
 

@@ -46,7 +46,7 @@ class FollowPlan {
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     const Senses senses = hall_.hear(raw, dt_s);
     const bool stood = idle_s_ < kIdle_s;
-    const bool still = magnitude(senses.speed_m_s) < 0.02f && magnitude(wrapped(hall_.at().heading_rad - last_rad_)) < 0.002f;
+    const bool still = magnitude(senses.speed_m_s) < 0.02f && magnitude(wrapped_angle(hall_.at().heading_rad - last_rad_)) < 0.002f;
     idle_s_ = still && !hall_.blind() && hall_.sees(senses) ? idle_s_ + sane_period(dt_s) : 0.0f;
     last_rad_ = hall_.at().heading_rad;
     if (hall_.blind() || plight_ != Plight::kNone) return {};

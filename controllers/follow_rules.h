@@ -41,7 +41,7 @@ class FollowRules {
       plight_ = Plight::kTrapped;
       return {};
     }
-    const float off = wrapped(heading_rad_ - hall_.at().heading_rad);
+    const float off = wrapped_angle(heading_rad_ - hall_.at().heading_rad);
     if (turning_ && magnitude(off) > kTurned_rad) return {0.0f, clamped(4.0f * off, -kGains.turn_rad_s, kGains.turn_rad_s)};
     if (turning_) ahead_to_m_ = hall_.travelled_m() + kStride_m;
     turning_ = false;
@@ -76,7 +76,7 @@ class FollowRules {
       return braked({kGains.speed_m_s * out.speed, clamped(3.0f * turn, -kGains.turn_rad_s, kGains.turn_rad_s)}, senses, body);
     }
     turning_ = true;
-    heading_rad_ = wrapped(hall_.at().heading_rad + turn);
+    heading_rad_ = wrapped_angle(hall_.at().heading_rad + turn);
     return {};
   }
 

@@ -97,7 +97,7 @@ class Hall {
   }
   /// The angle from ahead to a place, counter-clockwise.
   [[nodiscard]] constexpr float bearing(const Place& place) const noexcept {
-    return wrapped(angle_of(place.x_m - reckoning_.at.x_m, place.y_m - reckoning_.at.y_m) - reckoning_.at.heading_rad);
+    return wrapped_angle(angle_of(place.x_m - reckoning_.at.x_m, place.y_m - reckoning_.at.y_m) - reckoning_.at.heading_rad);
   }
   /// How far the robot has driven, and for how long, since it last came nearer to the gate than ever before.
   [[nodiscard]] constexpr float vain_m() const noexcept { return reckoning_.travelled_m() - best_at_m_; }
@@ -110,7 +110,7 @@ class Hall {
   [[nodiscard]] constexpr Place along(const Door& door) const noexcept {
     const float ux = cosine(door.heading_rad), uy = sine(door.heading_rad);
     const float dx = reckoning_.at.x_m - door.x_m, dy = reckoning_.at.y_m - door.y_m;
-    return {dx * ux + dy * uy, dy * ux - dx * uy, wrapped(reckoning_.at.heading_rad - door.heading_rad)};
+    return {dx * ux + dy * uy, dy * ux - dx * uy, wrapped_angle(reckoning_.at.heading_rad - door.heading_rad)};
   }
 
   /// Adds a wall across a door to what the range finders see. `side`: 1 behind its stop line, -1 before it.

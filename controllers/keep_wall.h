@@ -61,7 +61,7 @@ class KeepWall {
     const float before = reckoning_.at.heading_rad;
     reckoning_.step(senses, dt);
     if (!senses.range_known) return {};
-    const float change = reckoning_.heading_known() ? wrapped(reckoning_.at.heading_rad - before) : last_turn_rad_s_ * dt;
+    const float change = reckoning_.heading_known() ? wrapped_angle(reckoning_.at.heading_rad - before) : last_turn_rad_s_ * dt;
     Motion motion;
     if (gains.side != Side::kBoth) {
       if (!reckoning_.heading_known() || !reckoning_.distance_known()) return {};
@@ -129,16 +129,16 @@ class KeepWall {
   /// The heading relative to the walls: by the walls that show it, otherwise by the heading that the walls had.
   [[nodiscard]] float angle_to(const WallSight& left, const WallSight& right, float dt) noexcept {
     if (!left.angle_known && !right.angle_known) {
-      if (wall_heading_known_ && reckoning_.heading_known()) return wrapped(reckoning_.at.heading_rad - wall_heading_rad_);
+      if (wall_heading_known_ && reckoning_.heading_known()) return wrapped_angle(reckoning_.at.heading_rad - wall_heading_rad_);
       return angle_.value;
     }
     float angle = left.angle_known ? left.angle_rad : right.angle_rad;
     if (left.angle_known && right.angle_known) angle = 0.5f * (left.angle_rad + right.angle_rad);
     angle = angle_.step(angle, kTau_s, dt);
     if (reckoning_.heading_known()) {
-      const float heading = wrapped(reckoning_.at.heading_rad - angle);
-      wall_heading_rad_ += wall_heading_known_ ? wrapped(heading - wall_heading_rad_) * (dt / (0.2f + dt)) : heading;
-      wall_heading_rad_ = wrapped(wall_heading_rad_);
+      const float heading = wrapped_angle(reckoning_.at.heading_rad - angle);
+      wall_heading_rad_ += wall_heading_known_ ? wrapped_angle(heading - wall_heading_rad_) * (dt / (0.2f + dt)) : heading;
+      wall_heading_rad_ = wrapped_angle(wall_heading_rad_);
       wall_heading_known_ = true;
     }
     return angle;
@@ -151,7 +151,7 @@ class KeepWall {
     angle_.reset();
     if (lost_) return {};
     const bool heading = wall_heading_known_ && reckoning_.heading_known();
-    return along(0.0f, heading ? wrapped(reckoning_.at.heading_rad - wall_heading_rad_) : 0.0f);
+    return along(0.0f, heading ? wrapped_angle(reckoning_.at.heading_rad - wall_heading_rad_) : 0.0f);
   }
 
   [[nodiscard]] Motion round_corner(const Senses& senses, float change) noexcept {

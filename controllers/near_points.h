@@ -47,7 +47,7 @@ class NearPoints {
       dy = y;
     }
     if (!(best < kInfinity)) return {};
-    return {true, square_root(best), wrapped(angle_of(dx, dy) - at.heading_rad)};
+    return {true, square_root(best), wrapped_angle(angle_of(dx, dy) - at.heading_rad)};
   }
 
   /// How far away the first point lies in the lane from `at` towards `bearing_rad` (counter-clockwise from ahead) that is `half_m` broad to

@@ -69,7 +69,7 @@ class Reckoning {
   constexpr void start(const Senses& senses, const Place& place) noexcept {
     *this = Reckoning{};
     at = place;
-    if (senses.heading_known) at.heading_rad = wrapped(senses.heading_rad);
+    if (senses.heading_known) at.heading_rad = wrapped_angle(senses.heading_rad);
     turned_rad_ = senses.turned_rad;
     turned_known_ = senses.turned_known;
     odometry_.take(senses);
@@ -85,7 +85,7 @@ class Reckoning {
   /// The same for robots sent along a course. With the compass silent, the robot is taken to face along the first piece, or `turned_rad` from
   /// there.
   constexpr void start_along(const Senses& senses, const Task& task, float turned_rad = 0.0f) noexcept {
-    if (task.pieces > 0) start(senses, {0.0f, 0.0f, wrapped(task.course[0].heading_rad + turned_rad)});
+    if (task.pieces > 0) start(senses, {0.0f, 0.0f, wrapped_angle(task.course[0].heading_rad + turned_rad)});
     else start_relative(senses);
   }
 
@@ -93,16 +93,16 @@ class Reckoning {
   constexpr void step(const Senses& senses, float dt_s) noexcept {
     const float before = at.heading_rad;
     const bool wheels = senses.turned_known && turned_known_;
-    if (wheels) at.heading_rad += wrapped(senses.turned_rad - turned_rad_);
+    if (wheels) at.heading_rad += wrapped_angle(senses.turned_rad - turned_rad_);
     turned_rad_ = senses.turned_rad;
     turned_known_ = senses.turned_known;
     if (senses.heading_known) {
-      if (relative_) offset_rad_ = wrapped(senses.heading_rad - at.heading_rad);
+      if (relative_) offset_rad_ = wrapped_angle(senses.heading_rad - at.heading_rad);
       relative_ = false;
       const float tau = wheels ? kCompassTau_s : kCompassAloneTau_s;
-      at.heading_rad += wrapped(senses.heading_rad - offset_rad_ - at.heading_rad) * (dt_s / (tau + dt_s));
+      at.heading_rad += wrapped_angle(senses.heading_rad - offset_rad_ - at.heading_rad) * (dt_s / (tau + dt_s));
     }
-    at.heading_rad = wrapped(at.heading_rad);
+    at.heading_rad = wrapped_angle(at.heading_rad);
     heading_known_ = wheels || senses.heading_known;
     distance_known_ = senses.odometry_known;
     const float way = distance_known_ ? odometry_.way_m(senses, dt_s) : 0.0f;
@@ -110,7 +110,7 @@ class Reckoning {
     if (senses.heading_known) compass_silent_m_ = 0.0f;
     else compass_silent_m_ += magnitude(way);
     if (!distance_known_) return;
-    const float middle = before + 0.5f * wrapped(at.heading_rad - before);
+    const float middle = before + 0.5f * wrapped_angle(at.heading_rad - before);
     at.x_m += way * cosine(middle);
     at.y_m += way * sine(middle);
     travelled_m_ += magnitude(way);
@@ -118,7 +118,7 @@ class Reckoning {
 
   /// Tells the reckoning that its heading is wrong by `by_rad`. From now on the compass is corrected by as much.
   constexpr void correct_heading(float by_rad) noexcept {
-    at.heading_rad = wrapped(at.heading_rad + by_rad);
+    at.heading_rad = wrapped_angle(at.heading_rad + by_rad);
     offset_rad_ = clamped(offset_rad_ - by_rad, -kLargestOffset_rad, kLargestOffset_rad);
   }
 

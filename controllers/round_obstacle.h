@@ -147,7 +147,7 @@ class RoundObstacle {
       phase_ = Phase::kFace;
       return {};
     }
-    const float towards = wrapped(angle_of(-x_m, -y_m) - reckoning_.at.heading_rad);
+    const float towards = wrapped_angle(angle_of(-x_m, -y_m) - reckoning_.at.heading_rad);
     if (magnitude(towards) > 0.3f) return {0.0f, clamped(4.0f * towards, -gains.turn_rad_s, gains.turn_rad_s)};
     const Motion motion = one_.clear(braked({least(gains.speed_m_s, 0.5f * away + 0.05f), 3.0f * towards}, senses, body), reckoning_.at, body);
     blocked_s_ = motion.speed_m_s > 0.0f ? blocked_s_ : blocked_s_ + dt;

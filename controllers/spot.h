@@ -41,14 +41,14 @@ class TurnRound {
     reckoning_.start_along(heard(raw, body), task, -gains.angle_rad);
     last_rad_ = reckoning_.at.heading_rad;
     left_rad_ = gains.angle_rad;
-    if (task.pieces > 0) left_rad_ += wrapped(task.course[0].heading_rad - last_rad_ - gains.angle_rad);
+    if (task.pieces > 0) left_rad_ += wrapped_angle(task.course[0].heading_rad - last_rad_ - gains.angle_rad);
     calm_s_ = 0.0f;
   }
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     const float dt = sane_period(dt_s);
     reckoning_.step(heard(raw, body), dt);
     if (!reckoning_.heading_known()) return {};
-    left_rad_ -= wrapped(reckoning_.at.heading_rad - last_rad_);
+    left_rad_ -= wrapped_angle(reckoning_.at.heading_rad - last_rad_);
     last_rad_ = reckoning_.at.heading_rad;
     calm_s_ = magnitude(left_rad_) < gains.tolerance_rad ? calm_s_ + dt : 0.0f;
     if (done()) return {};
@@ -88,7 +88,7 @@ class LookRound {
   [[nodiscard]] Motion step(const Senses& raw, float dt_s) noexcept {
     reckoning_.step(heard(raw, body), sane_period(dt_s));
     if (!reckoning_.heading_known()) return {};
-    off_rad_ += wrapped(reckoning_.at.heading_rad - last_rad_);
+    off_rad_ += wrapped_angle(reckoning_.at.heading_rad - last_rad_);
     last_rad_ = reckoning_.at.heading_rad;
     if (off_rad_ > gains.angle_rad) to_left_ = false;
     if (off_rad_ < -gains.angle_rad) to_left_ = true;

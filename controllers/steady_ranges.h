@@ -85,7 +85,7 @@ class SteadyRanges {
 
   /// Not while the robot turns, since edges pass all the time then.
   void measure(const Senses& senses) noexcept {
-    if (magnitude(wrapped(reckoning_.at.heading_rad - before(1).heading_rad)) > kTurns_rad) return;
+    if (magnitude(wrapped_angle(reckoning_.at.heading_rad - before(1).heading_rad)) > kTurns_rad) return;
     for (std::size_t i = 0; i < kRangeFinders; ++i) {
       const float a = senses.range_m[i], b = before(0).range_m[i], c = before(1).range_m[i];
       if (!(greatest(a, greatest(b, c)) < kOutOfRange)) continue;   // a range finder that sees nothing shows no spread
@@ -133,7 +133,7 @@ class SteadyRanges {
     for (std::size_t i = 0; i < kRangeFinders; ++i) steady_m_[i] = counts[i] > 0 ? middle(ranges[i], counts[i]) : now.range_m[i];
   }
   [[nodiscard]] std::size_t looks_to(float dx, float dy) const noexcept {
-    const float bearing = wrapped(angle_of(dx, dy) - reckoning_.at.heading_rad) + 2.0f * kPi;
+    const float bearing = wrapped_angle(angle_of(dx, dy) - reckoning_.at.heading_rad) + 2.0f * kPi;
     return static_cast<std::size_t>(bearing / range_finder_rad(1) + 0.5f) % kRangeFinders;
   }
   /// Inserts a range in ascending order.

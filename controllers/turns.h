@@ -191,7 +191,7 @@ class TurnByWalls {
     if (!left.angle_known && !right.angle_known) return;
     float angle = left.angle_known ? left.angle_rad : right.angle_rad;
     if (left.angle_known && right.angle_known) angle = 0.5f * (left.angle_rad + right.angle_rad);
-    const float askew = wrapped(angle - on.turned_rad);
+    const float askew = wrapped_angle(angle - on.turned_rad);
     if (magnitude(askew) < 0.2f) crossing_.reckoning.correct_heading(askew * (dt / (kHeadingTau_s + dt)));
   }
 

@@ -189,7 +189,7 @@ TEST(FollowPlan, IsHeldUpWhicheverWayItFaces) {
     senses.heading_rad = senses.turned_rad = faces;
     plan.start(task, senses);
     for (int i = 0; i < 500; ++i) {
-      senses.heading_rad = senses.turned_rad = wrapped(faces + (i % 2 == 0 ? 4e-4f : -4e-4f));
+      senses.heading_rad = senses.turned_rad = wrapped_angle(faces + (i % 2 == 0 ? 4e-4f : -4e-4f));
       static_cast<void>(plan.step(senses, 0.02f));
     }
     EXPECT_EQ(plan.plight(), Plight::kTrapped) << faces;

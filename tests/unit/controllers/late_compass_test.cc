@@ -22,7 +22,7 @@ struct Robot {
     senses.speed_m_s = speed_m_s;
     senses.turned_rad = turned_rad;
     senses.heading_known = samples++ >= compass_from;
-    senses.heading_rad = senses.heading_known ? wrapped(heading_rad) : 0.0f;
+    senses.heading_rad = senses.heading_known ? wrapped_angle(heading_rad) : 0.0f;
     for (float& range_m : senses.range_m) range_m = kOutOfRange;
     return senses;
   }
@@ -63,7 +63,7 @@ TEST(LateCompass, TurningRoundIntoARoadIsHalfATurnWithoutACompass) {
   robot.heading_rad = 2.0f;
   Task task;
   task.pieces = 1;
-  task.course[0] = {wrapped(2.0f + kPi), 3.0f};
+  task.course[0] = {wrapped_angle(2.0f + kPi), 3.0f};
   AnyController controller = chosen(ControllerId::kTurnRound);
   robot.drive(controller, task, 2000);
   EXPECT_NEAR(robot.heading_rad - 2.0f, kPi, 5.0f * kRadPerDeg);

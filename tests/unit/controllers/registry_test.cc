@@ -184,8 +184,8 @@ TEST(Angles, AgreeWithTheStandardLibrary) {
     const float x = static_cast<float>(i) * 0.01f;
     EXPECT_NEAR(sine(x), std::sin(static_cast<double>(x)), 3e-6) << x;
     EXPECT_NEAR(cosine(x), std::cos(static_cast<double>(x)), 3e-6) << x;
-    EXPECT_NEAR(std::remainder(static_cast<double>(wrapped(x)) - static_cast<double>(x), 6.283185307179586), 0.0, 3e-6) << x;
-    EXPECT_LE(magnitude(wrapped(x)), kPi) << x;
+    EXPECT_NEAR(std::remainder(static_cast<double>(wrapped_angle(x)) - static_cast<double>(x), 6.283185307179586), 0.0, 3e-6) << x;
+    EXPECT_LE(magnitude(wrapped_angle(x)), kPi) << x;
   }
   for (int i = 0; i < 720; ++i) {
     const double angle = (i - 359.5) * 0.008726646259971648;
@@ -193,7 +193,7 @@ TEST(Angles, AgreeWithTheStandardLibrary) {
     EXPECT_NEAR(angle_of(x, y), std::atan2(static_cast<double>(y), static_cast<double>(x)), 1e-6) << i;
   }
   EXPECT_EQ(angle_of(0.0f, 0.0f), 0.0f);
-  EXPECT_EQ(wrapped(std::nanf("")), 0.0f);
+  EXPECT_EQ(wrapped_angle(std::nanf("")), 0.0f);
 }
 
 TEST(Pid, ItsIntegralStandsStillAtTheLimit) {

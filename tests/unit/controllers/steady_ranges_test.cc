@@ -32,7 +32,7 @@ struct Corridor {
     x_m += speed_m_s * kPeriod_s;
     heading_rad += turn_rad_s * kPeriod_s;
     senses.range_known = senses.heading_known = senses.turned_known = senses.odometry_known = true;
-    senses.heading_rad = senses.turned_rad = wrapped(heading_rad);
+    senses.heading_rad = senses.turned_rad = wrapped_angle(heading_rad);
     senses.speed_m_s = speed_m_s;
     std::normal_distribution<float> bell(0.0f, 1.0f);
     for (std::size_t i = 0; i < kRangeFinders && period % kHeld == 0; ++i) {
