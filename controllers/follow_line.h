@@ -69,8 +69,9 @@ class FollowLine {
     searches_ = !line.seen;
     if (searches_) return search(senses, dt);
     lost_m_ = lost_rad_ = 0.0f;
-    since_arm_m_ += dt * magnitude(senses.odometry_known ? senses.speed_m_s : gains.speed_m_s);
-    since_across_m_ += dt * magnitude(senses.odometry_known ? senses.speed_m_s : gains.speed_m_s);
+    const float way = dt * magnitude(senses.odometry_known ? senses.speed_m_s : gains.speed_m_s);
+    since_arm_m_ += way;
+    since_across_m_ += way;
     if (line.across) {
       pid_.reset();
       last_m_ = since_across_m_ = 0.0f;
