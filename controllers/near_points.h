@@ -135,5 +135,6 @@ class NearPoints {
 
   Point points_[96] = {};
 };
+static_assert(sizeof(NearPoints) == 96 * 20);
 
 }  // namespace mts

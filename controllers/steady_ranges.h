@@ -24,7 +24,7 @@
 
 namespace mts {
 
-/// Takes 2.0 kB. Cost of a new reading: storing it and, if the range finders are rough, turning 8 n points and sorting them into eight
+/// Takes at most 2,160 bytes. Cost of a new reading: storing it and, if the range finders are rough, turning 8 n points and sorting them into eight
 /// directions. Between readings: eight comparisons.
 class SteadyRanges {
  public:
@@ -174,5 +174,6 @@ class SteadyRanges {
   float median_m_ = 0.0f, since_s_ = 0.0f;         ///< since_s_: time since the last reading that was kept
   bool started_ = false, rough_ = false;
 };
+static_assert(sizeof(SteadyRanges) <= 2160);
 
 }  // namespace mts
