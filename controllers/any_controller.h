@@ -1,7 +1,9 @@
 // A controller chosen by name at run time, in a fixed amount of memory.
 //
+//   const mts::ControllerEntry* entry = mts::find_controller(name);
+//   if (entry == nullptr) ...                                    // there is none of that name
 //   mts::AnyController drive;
-//   drive.choose(mts::find_controller("keep_wall")->id);
+//   drive.choose(entry->id, body);
 //   if (drive.set("side", 2.0f) != mts::Setting::kSet) ...       // right: number_of_word()
 //   if (drive.set("distance", 0.2f) != mts::Setting::kSet) ...
 //   drive.start(task, senses);
@@ -20,13 +22,16 @@ enum class Setting : std::uint8_t {
   kOutside,      ///< below `lowest` or above `highest` for its body, between two words, or NaN; nothing was set
 };
 
+/// One of all controllers; `stand` until one is chosen. As large as the largest of them, at most 6,000 bytes; no heap. It may be copied: the
+/// copy goes on from the same state, with the same `Host::self`. One object belongs to one thread at a time.
 class AnyController {
  public:
   AnyController() noexcept : stand_{} {}
 
   /// Switches to another controller, for this body; parameters set earlier are lost. Each has its default, or if the body does not allow
   /// that (see `lowest` and `highest`) the value nearest to it. Call `start` before `step`.
-  /// `host` serves controllers that need a planner or rules. Without it they stand, and `plight()` reports kNoWay.
+  /// `host` serves controllers that need a planner or rules. Without it they stand, and `plight()` reports kNoWay. It is copied; what its
+  /// `self` points to must live as long as this controller is stepped.
   void choose(ControllerId id, const Body& body = {}, const Host& host = {}) noexcept {
     id_ = id;
     turn_set_ = false;
@@ -96,11 +101,16 @@ class AnyController {
     return Setting::kSet;
   }
 
+  /// Begins the task from where the senses say that the robot is; both are copied. Called again it begins afresh, and what was `set` stays.
   void start(const Task& task, const Senses& senses) noexcept {
     Task mine = task;
     if (turn_set_) mine.turn = turn_;
     visit([&](auto& controller) { controller.start(mine, senses); });
   }
+  /// What the wheels are to do until the next step. `dt_s`: seconds since the last one, usually 0.005 to 0.02; more than half a second counts as
+  /// half, NaN, negative ones and less than a microsecond as 0 (see `sane_period`). Call `start` before: without it the answer
+  /// is a motion that `braked` allows, but serves no purpose. Cost: some hundred to some ten thousand floating-point operations; what `host`
+  /// needs comes on top.
   [[nodiscard]] Motion step(const Senses& senses, float dt_s) noexcept {
     Motion motion;
     visit([&](auto& controller) { motion = controller.step(senses, dt_s); });
@@ -180,5 +190,6 @@ class AnyController {
     FollowPlan follow_plan_;
   };
 };
+static_assert(sizeof(AnyController) <= 6000);
 
 }  // namespace mts

@@ -38,13 +38,25 @@ struct WayQuestion {
 };
 
 /// The inputs and outputs of std.go_to_goal's `GoToGoal`.
-struct RulesInput { float bearing_deg = 0.0f; float free[kRangeFinders] = {}; };
-struct RulesOutput { float turn_deg = 0.0f, speed = 0.0f; bool found = false; };   ///< `found`: some rule fired
+struct RulesInput {
+  float bearing_deg = 0.0f;           ///< from ahead to the goal, counter-clockwise, in (-180, 180]
+  float free[kRangeFinders] = {};     ///< 0 blocked to 1 free: see follow_rules.h
+};
+/// Numbers that are NaN or infinite count as if no rule had fired.
+struct RulesOutput {
+  float turn_deg = 0.0f;   ///< by which the robot turns, counter-clockwise; reduced to (-180, 180]
+  float speed = 0.0f;      ///< share of 0.25 m/s, 0 to 1, at which it steers while it turns by less than 20 degrees; below 0.5 it turns on the spot
+  bool found = false;      ///< some rule fired
+};
 
+/// Controllers keep a copy. `self`, handed to both functions, must live as long as they are stepped. Both are called within `step`, and
+/// must not throw: while they run, the wheels do what they were last told. So a planner that needs more than a part of the control period should
+/// plan elsewhere, and answer kSame until it has a path.
 struct Host {
   void* self = nullptr;
-  /// Called once per control period. Takes in new senses and reports whether the path changes.
+  /// Called once per control period while the robot is between the doors. Takes in new senses and reports whether the path changes.
   WayNews (*look)(void* self, const WayQuestion& question, Way& way) = nullptr;
+  /// Called where the robot has to decide: after each turn and each 10 cm, or in each period while it steers.
   RulesOutput (*decide)(void* self, const RulesInput& input) = nullptr;
 };
 

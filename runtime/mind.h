@@ -279,7 +279,10 @@ class Mind {
   /// The decision of the last tick.
   [[nodiscard]] Decision<K> decision() const { return Decision<K>(state_); }
 
+  /// The certainty of a fact in [-1, 1] as the mind has it: a NaN is 0, all else is clamped. At start-up 0. `give` shows at once, although
+  /// nothing is decided by it before the next tick; of `tick(facts, ...)` it shows what that tick has read.
   [[nodiscard]] float value(typename K::Fact fact) const { return state_.cf[static_cast<std::uint32_t>(fact)]; }
+  /// The value of a satellite in [-1, 1], as the last tick or `set` left it; at start-up its initial value.
   [[nodiscard]] float value(typename K::Satellite satellite) const {
     return state_.cf[K::kShape.facts + static_cast<std::uint32_t>(satellite)];
   }
@@ -288,6 +291,7 @@ class Mind {
     if constexpr (K::kShape.strategies == 0) return false;
     else return state_.cf[K::kShape.facts + K::kShape.satellites + static_cast<std::uint32_t>(strategy)] > 0.0f;
   }
+  /// Whether the satellite is as high as conditions ask for: at least the knowledge base's `firing` threshold.
   [[nodiscard]] bool high(typename K::Satellite satellite) const { return value(satellite) >= K::kTables.firing; }
 
   /// Whether some satellite of the fact is high. Such a fact is a goal or part of the context, and its threshold is lower.
