@@ -1,6 +1,9 @@
 // A knowledge base as a file (.kbt), verified and used in place. Freestanding: no heap, no exceptions, no recursion.
 // `kbc compile --emit image` writes such files, docs/image.md describes them, and runtime/swap.h exchanges them while the robot drives.
 //
+//   #include <waymark/runtime/engine.h>                          // what runs on it
+//   #include <waymark/runtime/image.h>
+//
 //   mts::ImageInfo info;
 //   if (mts::peek_image(bytes, size, info) != mts::ImageStatus::kOk) ...
 //   mts::Image<std::uint16_t> image;                             // info.index_bytes == 2
