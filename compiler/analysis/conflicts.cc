@@ -87,7 +87,7 @@ class ConflictQuestions {
     for (const std::uint32_t group : rule.clears) f(thing_of_group(group), false, true);
     if (!rule.reset) return;
     for (const CellId cell : reset_) {
-      const float value = written(rule, cell).value_or(0.0f);
+      const float value = program::net_value(program_, subject_.group_of, rule, cell).value_or(0.0f);
       f(thing_of(cell), value > 0.0f, value < 0.0f);
     }
   }
@@ -206,22 +206,11 @@ class ConflictQuestions {
     subject_.diagnostics.report(Kind::kAnalysisIncomplete, place, {program_.levels[level], program_[cell].name});
   }
 
-  /// What the rule writes to the cell, if anything: directly, through its group, or by its reset.
-  [[nodiscard]] std::optional<float> written(const Rule& rule, CellId cell) const {
-    const auto write = std::lower_bound(rule.writes.begin(), rule.writes.end(), cell,
-                                        [](const Write& w, CellId c) { return w.cell < c; });
-    if (write != rule.writes.end() && write->cell == cell) return write->value;
-    if (std::binary_search(rule.clears.begin(), rule.clears.end(), subject_.group_of[program::index(cell)]))
-      return -1.0f;
-    if (rule.reset && !program_[cell].keep) return program_[cell].initial;
-    return std::nullopt;
-  }
-
   /// A cell of `thing` that `a` raises by name and `b` lowers. If `b` lowers it by raising another member, that is `other`.
   [[nodiscard]] std::optional<Disagreement> raised_against(std::uint32_t thing, const Rule& a, const Rule& b) const {
     for (const Write& write : a.writes) {
       if (write.value <= 0.0f || thing_of(write.cell) != thing) continue;
-      const std::optional<float> against = written(b, write.cell);
+      const std::optional<float> against = program::net_value(program_, subject_.group_of, b, write.cell);
       if (!against || *against >= 0.0f) continue;
       for (const Write& other : b.writes) {
         if (other.value > 0.0f && thing_of(other.cell) == thing) return Disagreement{write.cell, other.cell};
@@ -249,7 +238,8 @@ class ConflictQuestions {
   /// A cell of this contest that one of two resets raises and the other lowers, perhaps only by putting it back.
   [[nodiscard]] std::optional<Disagreement> between_resets(const Rule& a, const Rule& b) const {
     for (const CellId cell : reset_here_) {
-      const float x = written(a, cell).value_or(0.0f), y = written(b, cell).value_or(0.0f);
+      const float x = program::net_value(program_, subject_.group_of, a, cell).value_or(0.0f);
+      const float y = program::net_value(program_, subject_.group_of, b, cell).value_or(0.0f);
       if (x * y < 0.0f) return Disagreement{cell, CellId::kNone};
     }
     return std::nullopt;
@@ -294,7 +284,7 @@ class ConflictQuestions {
 
   [[nodiscard]] bool asks_what_it_writes(const Rule& rule, program::CondId condition) const {
     const program::Cond& cond = program_[condition];
-    if (!program::has_parts(cond.op)) return written(rule, cond.cell).has_value();
+    if (!program::has_parts(cond.op)) return program::net_value(program_, subject_.group_of, rule, cond.cell).has_value();
     return std::any_of(cond.children.begin(), cond.children.end(), [&](program::CondId part) { return asks_what_it_writes(rule, part); });
   }
 
