@@ -104,7 +104,7 @@ bool attended_at_times(const Program& program, const Domains& domains, CellId ce
 Domains widest_domains(const Program& program) {
   const auto firing = static_cast<float>(program.settings.firing);
   Domains domains;
-  Intervals seen(firing), unseen(firing);
+  Intervals seen(firing), lost(firing), unseen(firing);
   domains.all = Intervals(firing).between(-1.0f, 1.0f);
   for (const program::Cell& cell : program.cells) {
     const bool runs = cell.kind == CellKind::kStrategy;
@@ -115,6 +115,7 @@ Domains widest_domains(const Program& program) {
     const bool visible = limits.attended < 1.0f;
     domains.facts.push_back(visible ? kAnySighting : kUnseen);
     domains.when_seen.push_back(visible ? seen.between(std::nextafter(limits.attended, 2.0f), 1.0f) : Regions{0});
+    domains.when_lost.push_back(visible ? lost.between(-1.0f, limits.attended) : Regions{0});
     domains.when_unseen.push_back(unseen.between(-1.0f, std::min(limits.plain, 1.0f)));
   }
   return domains;

@@ -35,7 +35,8 @@ struct Domains {
   std::vector<Regions> cells;        ///< by cell: where it can ever be
   std::vector<Sightings> facts;      ///< by fact
   std::vector<Regions> when_seen;    ///< by fact: where it can be while it is seen, ...
-  std::vector<Regions> when_unseen;  ///< ... and while it is not
+  std::vector<Regions> when_lost;    ///< ... on the tick on which it is lost, which takes less than to come into view, ...
+  std::vector<Regions> when_unseen;  ///< ... and while it is not seen
 };
 
 /// The regions that each cell can reach. A satellite can have its initial value, the values that rules write, and, if these

@@ -139,11 +139,14 @@ bool Satisfier::narrow(std::uint32_t variable, std::uint8_t wanted) {
 bool Satisfier::couple(std::uint32_t fact) {
   const std::uint32_t sighting = sighting_of(CellId{fact});
   const std::uint8_t seen = allowed(sighting);
-  if ((seen & kSeen) == 0 && !narrow(fact, domains_.when_unseen[fact])) return false;
+  if ((seen & kSeen) == 0 && !narrow(fact, seen == kJustLost ? domains_.when_lost[fact] : domains_.when_unseen[fact])) return false;
   if ((seen & ~kSeen) == 0 && !narrow(fact, domains_.when_seen[fact])) return false;
   const std::uint8_t regions = allowed(fact);
-  if ((regions & domains_.when_seen[fact]) == 0 && !narrow(sighting, kUnseen | kJustLost)) return false;
-  return (regions & domains_.when_unseen[fact]) != 0 || narrow(sighting, kSeen);
+  Sightings possible = kAnySighting;
+  if ((regions & domains_.when_seen[fact]) == 0) possible &= kUnseen | kJustLost;
+  if ((regions & domains_.when_lost[fact]) == 0) possible &= static_cast<Sightings>(~kJustLost);
+  if ((regions & domains_.when_unseen[fact]) == 0) possible &= kSeen;
+  return possible == kAnySighting || narrow(sighting, possible);
 }
 
 bool Satisfier::restrict_to(std::uint32_t variable, std::uint8_t wanted) {
