@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -39,9 +40,8 @@ std::string combine_text(const Output& output) {
 }  // namespace
 
 std::uint32_t input_of_slot(const Controller& controller, std::uint32_t slot) {
-  std::uint32_t input = 0;
-  while (slot >= controller.inputs[input].first_slot + controller.inputs[input].count) ++input;
-  return input;
+  const auto behind = std::ranges::upper_bound(controller.inputs, slot, {}, &Input::first_slot);
+  return static_cast<std::uint32_t>(behind - controller.inputs.begin()) - 1;
 }
 
 std::string range_text(double low, double high, std::string_view unit, bool circular) {

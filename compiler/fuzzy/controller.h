@@ -143,7 +143,7 @@ struct Controller {
 [[nodiscard]] std::string range_text(double low, double high, std::string_view unit, bool circular);
 /// The name of a slot: `bearing`, `free[3]`.
 [[nodiscard]] std::string slot_name(const Controller& controller, std::uint32_t slot);
-/// The input that a slot belongs to.
+/// The input that a slot belongs to. Cost: a binary search.
 [[nodiscard]] std::uint32_t input_of_slot(const Controller& controller, std::uint32_t slot);
 /// A condition as the language writes it, with as few parentheses as it needs.
 [[nodiscard]] std::string text(const Controller& controller, std::uint32_t node);

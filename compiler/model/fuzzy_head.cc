@@ -96,8 +96,10 @@ void FuzzyHead::read_input(const syntax::Fuzzy::Input& from) {
 
 void FuzzyHead::add_slots(const syntax::Name& name, const fuzzy::Input& input, std::uint32_t id) {
   to_.slots += input.count;
-  if (to_.slots > kMaxSlots || to_.degrees.size() + std::size_t{input.count} * input.terms.size() > kMaxDegrees) {
-    if (!too_large_) fail(Kind::kFuzzyTooLarge, name.span, {from_.name.text, "degrees of inputs in terms", std::to_string(kMaxDegrees)});
+  const bool many_slots = to_.slots > kMaxSlots;
+  if (many_slots || to_.degrees.size() + std::size_t{input.count} * input.terms.size() > kMaxDegrees) {
+    const std::string_view what = many_slots ? "inputs" : "degrees of inputs in terms";
+    if (!too_large_) fail(Kind::kFuzzyTooLarge, name.span, {from_.name.text, what, std::to_string(many_slots ? kMaxSlots : kMaxDegrees)});
     too_large_ = true;
     good_ = false;
   } else {
