@@ -8,7 +8,8 @@
 // contested cell or group are put into buckets by the member that they demand, of the group that separates most of them.
 // Only writers in one bucket are compared with each other, and all writers with the few that demand no member. For each
 // pair the demands that follow without search are compared first (compatible); only then a search looks for a moment at
-// which both can fire (Satisfier). If a contested cell has too many pairs, the analysis reports that and gives up on it.
+// which both can fire (Satisfier). If a contested cell has too many pairs, or far more were found to disagree than are shown, the
+// analysis reports that and gives up on the cell.
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -34,6 +35,9 @@ using program::Write;
 constexpr std::uint64_t kMostPairs = 4'000'000;  ///< of one contested cell or group
 constexpr std::uint64_t kMostPairsInAll = 12'000'000;
 constexpr std::size_t kMostCounted = 1'000;  ///< conflicts of one pair of rules as written
+constexpr std::size_t kMostFindings = 1'000; ///< pairs of rules as written; far more than are shown
+constexpr std::size_t kMostDemands = 2'000'000;  ///< of the rules of one level; once there are more, `no` over a long group demands nothing
+constexpr std::size_t kFewParts = 64;
 
 /// What the rules of one level write to one thing: a cell, or an exclusive group as a whole.
 struct Contest {
@@ -132,12 +136,15 @@ class ConflictQuestions {
     }
     for_each_write_of(begin, end, [&](std::uint32_t, std::uint32_t thing, bool, bool) { contested_[thing] = 0; });
     demands_.clear();
+    demanded_ = 0;
   }
 
   /// What follows from the rule's condition. The reference is valid until the level is done.
   const Demands& demands(std::uint32_t rule) {
     const auto [at, fresh] = demands_.try_emplace(rule);
-    if (fresh) at->second = satisfier_.demands(program_.rules[rule].condition, program_.rules[rule].level);
+    if (!fresh) return at->second;
+    at->second = satisfier_.demands(program_.rules[rule].condition, program_.rules[rule].level, demanded_ < kMostDemands ? Satisfier::kAllParts : kFewParts);
+    demanded_ += at->second.each.size();
     return at->second;
   }
 
@@ -197,6 +204,7 @@ class ConflictQuestions {
     for (std::size_t i = 0; i < unkeyed.size(); ++i) {
       for (std::size_t j = i + 1; j < unkeyed.size(); ++j) compare(thing, unkeyed[i], unkeyed[j]);
     }
+    if (found_.size() >= kMostFindings) give_up(thing, program_.rules[rules.front()].level);
   }
 
   void give_up(std::uint32_t thing, std::uint32_t level) {
@@ -248,7 +256,7 @@ class ConflictQuestions {
   void compare(std::uint32_t thing, std::uint32_t first, std::uint32_t second) {
     const Rule& a = program_.rules[first];
     const Rule& b = program_.rules[second];
-    if (a.reset != b.reset) return;  // a reset silences the others
+    if (a.reset != b.reset || found_.size() >= kMostFindings) return;  // a reset silences the others
     if (!compatible(demands(first), demands(second))) return;
     std::optional<Disagreement> about = raised_against(thing, a, b);
     if (!about) {
@@ -258,13 +266,11 @@ class ConflictQuestions {
     if (!about) about = raised_apart(thing, a, b);
     if (!about && a.reset) about = between_resets(a, b);
     if (!about) return;
-    Finding& finding = found_[{subject_.family[first], subject_.family[second]}];
-    if (finding.pairs.size() >= kMostCounted || finding.pairs.contains({first, second}) || fired_before(a, b) || fired_before(b, a) || !can_fire_together(a, b)) return;
-    if (finding.pairs.empty()) {
-      finding.first = RuleId{first};
-      finding.second = RuleId{second};
-      finding.about = *about;
-    }
+    const std::pair families{subject_.family[first], subject_.family[second]};
+    const auto known = found_.find(families);
+    const bool counted = known != found_.end() && (known->second.pairs.size() >= kMostCounted || known->second.pairs.contains({first, second}));
+    if (counted || fired_before(a, b) || fired_before(b, a) || !can_fire_together(a, b)) return;
+    Finding& finding = known != found_.end() ? known->second : found_.emplace(families, Finding{RuleId{first}, RuleId{second}, *about, {}}).first->second;
     finding.pairs.emplace(first, second);
   }
 
@@ -295,7 +301,6 @@ class ConflictQuestions {
   }
 
   void report(const Finding& finding) {
-    if (finding.pairs.empty()) return;
     const bool first_is_users = !program_[finding.first].standard && program_[finding.second].standard;
     const Rule& here = program_[first_is_users ? finding.first : finding.second];
     const Rule& there = program_[first_is_users ? finding.second : finding.first];
@@ -344,6 +349,7 @@ class ConflictQuestions {
   const Program& program_;
   Satisfier satisfier_;
   std::unordered_map<std::uint32_t, Demands> demands_;   // of rules of one level; looked up, never iterated
+  std::size_t demanded_ = 0;                             // the number of single demands in it
   std::vector<std::uint8_t> contested_;                  // by thing: whether a rule of the level raises it, and lowers it
   std::vector<CellId> reset_;                            // ascending: what rules with `reset` also write in this level
   std::vector<CellId> reset_here_;                       // those of this contest

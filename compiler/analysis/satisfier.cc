@@ -174,6 +174,7 @@ bool Satisfier::assume(Goal first) {
       case Cond::Op::kNot: pending_.push_back({cond.children.front(), !goal.wanted}); break;
       case Cond::Op::kAnd:
       case Cond::Op::kOr:
+        if (cond.children.size() > most_parts_) break;
         if ((cond.op == Cond::Op::kAnd) != goal.wanted) {
           open_.push_back(goal);
           closed_.push_back(false);
@@ -344,11 +345,13 @@ Answer Satisfier::together(std::span<const Goal> goals, std::uint32_t level) {
   return search();
 }
 
-Demands Satisfier::demands(CondId condition, std::uint32_t level) {
+Demands Satisfier::demands(CondId condition, std::uint32_t level, std::size_t most_parts) {
   begin(level);
   Demands demands;
   std::size_t branch = kNothingOpen;
+  most_parts_ = most_parts;
   demands.possible = assume({condition, true}) && settle(branch);
+  most_parts_ = kAllParts;
   for (const Change change : trail_) {
     if (change.place < values_.size()) {
       demands.each.push_back({change.place, values_[change.place]});

@@ -56,8 +56,10 @@ class Satisfier {
 
   /// Whether all goals can hold at one moment while `level` is evaluated (on the control level no strategy is high).
   [[nodiscard]] Answer together(std::span<const Goal> goals, std::uint32_t level);
-  /// What a condition demands, as far as that is known without trying alternatives.
-  [[nodiscard]] Demands demands(program::CondId condition, std::uint32_t level);
+  static constexpr std::size_t kAllParts = static_cast<std::size_t>(-1);
+  /// What a condition demands, as far as that is known without trying alternatives. What an `and` or `or` of more than `most_parts` demands
+  /// is left out.
+  [[nodiscard]] Demands demands(program::CondId condition, std::uint32_t level, std::size_t most_parts = kAllParts);
   /// Whether the condition is a `for` over something that never holds on two ticks in a row, so that the `for` never holds.
   [[nodiscard]] bool is_timed_event(program::CondId condition) const;
   /// Steps taken so far by all questions together; once this exceeds `kTotalSteps` every answer is kUnknown.
@@ -121,6 +123,7 @@ class Satisfier {
   std::vector<Choice> choices_;
   std::vector<program::CondId> timed_events_;   // ascending
   bool control_level_ = false;
+  std::size_t most_parts_ = kAllParts;   // wider conditions are taken to demand nothing
   std::uint64_t steps_ = 0;
   std::uint64_t limit_ = 0;
 };
