@@ -37,6 +37,7 @@ class PriorityQuestions {
     for (std::uint32_t i = 0; i < count_; ++i) {
       const bool same = i > 0 && strategy(i).declared == strategy(i - 1).declared;
       unit_.push_back(i == 0 ? 0 : unit_.back() + (same ? 0 : 1));
+      standard_.push_back(same ? standard_.back() : subject.in_library(strategy(i).declared));
       wanting_.push_back(those_that_can_be_high(strategy(i)));
     }
   }
@@ -59,7 +60,12 @@ class PriorityQuestions {
 
  private:
   using Nodes = std::vector<std::uint32_t>;
-  struct Unsettled { std::uint32_t at; Nodes others; source::Span place; };
+  struct Unsettled {
+    std::uint32_t at;
+    source::Span place;
+    Nodes others;           // the first ones, which the message names
+    std::size_t count = 0;  // of all others
+  };
 
   [[nodiscard]] const program::Cell& strategy(std::uint32_t node) const { return program_.cells[first_ + node]; }
   [[nodiscard]] std::uint32_t node(CellId strategy) const { return static_cast<std::uint32_t>(program::index(strategy) - first_); }
@@ -113,12 +119,12 @@ class PriorityQuestions {
     const auto [low, high] = std::minmax(unit_[first], unit_[second]);
     if (said_[low][high]) return;
     said_[low][high] = true;
-    const auto standard = [this](std::uint32_t n) { return subject_.in_library(strategy(n).declared); };
-    if (standard(second) && !standard(first)) std::swap(first, second);
-    const source::Span place = standard(second) ? meeting(first, second) : strategy(second).declared;
+    if (standard_[second] && !standard_[first]) std::swap(first, second);
+    const source::Span place = standard_[second] ? meeting(first, second) : strategy(second).declared;
     const auto [told, fresh] = unsettled_at_.try_emplace({unit_[second], place.file, place.begin}, unsettled_.size());
-    if (fresh) unsettled_.push_back({second, {}, place});
-    unsettled_[told->second].others.push_back(first);
+    if (fresh) unsettled_.push_back({second, place, {}});
+    Unsettled& unsettled = unsettled_[told->second];
+    if (unsettled.count++ < kShown) unsettled.others.push_back(first);
   }
 
   /// Where to report a pair of two packages that do not know each other: at the user's import of the second one, near which the user can
@@ -135,6 +141,7 @@ class PriorityQuestions {
     for (const Unsettled& pair : unsettled_) {
       std::vector<std::string_view> others;
       for (const std::uint32_t other : pair.others) others.push_back(name(other));
+      others.resize(pair.count);   // the rest is only counted
       auto message = subject_.diagnostics.report(Kind::kUnsettledPriority, pair.place, {name(pair.at), diagnostics::listed(others, kShown)});
       if (pair.place != strategy(pair.at).declared) message.note(Kind::kNameDeclaredHere, strategy(pair.at).declared, {name(pair.at)});
       message.note(Kind::kNameDeclaredHere, strategy(pair.others.front()).declared, {others.front()});
@@ -147,6 +154,7 @@ class PriorityQuestions {
   std::size_t first_;                          // of the strategies, which are numbered from here
   std::size_t count_;
   Nodes unit_;                                 // by strategy: members of one group share one
+  std::vector<bool> standard_;                 // by strategy: declared in the library
   std::vector<std::vector<CellId>> wanting_;   // by strategy: its satellites that can be high
   std::vector<Set> below_;                     // by strategy: those that lines put after it
   std::vector<std::vector<bool>> said_;        // pairs of units, the lower one first
