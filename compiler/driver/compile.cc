@@ -19,9 +19,12 @@ bool ends(Stage done, const Options& options, const diagnostics::Diagnostics& di
   return diagnostics.broken() || options.until == done;
 }
 
+/// All that the analysis reports are warnings.
+bool analyses(const Options& options) { return options.analyse && !options.warnings.none; }
+
 /// Makes the tables of a large program while it is analysed; both only read it. Those of a small program are made when asked for.
 std::future<tables::Tables> begin_tables(const program::Program& program, const Options& options) {
-  const bool beside = options.analyse && options.until == Stage::kTables && program.rules.size() >= tables::kWorthAThread;
+  const bool beside = analyses(options) && options.until == Stage::kTables && program.rules.size() >= tables::kWorthAThread;
   return std::async(beside ? std::launch::async : std::launch::deferred, [&program] { return tables::build(program); });
 }
 
@@ -42,7 +45,7 @@ void run(std::string_view path, const source::FileSystem& files, const Options& 
   if (ends(Stage::kProgram, options, diagnostics)) return;
 
   std::future<tables::Tables> tables = begin_tables(to.program, options);
-  if (options.analyse) analysis::diagnose(to.model, to.program, options.known, diagnostics);
+  if (analyses(options)) analysis::diagnose(to.model, to.program, options.known, diagnostics);
   if (ends(Stage::kAnalysis, options, diagnostics)) return;
   if (!options.keep_model) to.model = {};
   to.tables = tables.get();
