@@ -137,11 +137,7 @@ void diagnose_void(Subject& subject) {
 }
 
 bool same(const Rule& a, const Rule& b) {
-  const auto equal = [](const program::Write& x, const program::Write& y) {
-    return x.cell == y.cell && x.value == y.value;
-  };
-  return a.level == b.level && a.mode == b.mode && a.condition == b.condition && a.reset == b.reset &&
-         a.clears == b.clears && std::equal(a.writes.begin(), a.writes.end(), b.writes.begin(), b.writes.end(), equal);
+  return a.level == b.level && a.mode == b.mode && a.condition == b.condition && program::same_effects(a, b);
 }
 
 void diagnose_duplicates(Subject& subject) {

@@ -1,11 +1,12 @@
 // Reports rules that lose what they wait for to a `reset` of their own level.
-#include <array>
+#include <algorithm>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
+#include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
 namespace {
@@ -21,6 +22,8 @@ struct Loss {
   RuleId reset = RuleId::kNone;
   CellId cell = CellId::kNone;
 };
+
+using Alike = std::vector<RuleId>;   // rules of one level with the same effects: a rule loses the same to each of them
 
 class SilencedQuestions {
  public:
@@ -51,7 +54,14 @@ class SilencedQuestions {
       const Rule& rule = program_.rules[i];
       if (!rule.reset) continue;
       resets_at_[rule.level] = true;
-      for (const std::size_t fact : awaited(satisfier_.demands(rule.condition, rule.level))) resets_[fact].push_back(RuleId{i});
+      for (const std::size_t fact : awaited(satisfier_.demands(rule.condition, rule.level))) {
+        std::vector<Alike>& all = resets_[fact];
+        const auto alike = std::ranges::find_if(all, [&](const Alike& one) {
+          const Rule& first = program_[one.front()];
+          return first.level == rule.level && program::same_effects(first, rule);
+        });
+        (alike == all.end() ? all.emplace_back() : *alike).push_back(RuleId{i});
+      }
     }
   }
 
@@ -75,11 +85,14 @@ class SilencedQuestions {
     for (const std::size_t fact : awaited(demands)) {
       const auto resets = resets_.find(fact);
       if (resets == resets_.end()) continue;
-      for (const RuleId id : resets->second) {
-        const Rule& reset = program_[id];
-        if (reset.level != rule.level) continue;
-        const auto cell = undone(subject_, demands, reset);
-        if (cell && satisfier_.together(std::to_array<Goal>({{rule.condition, true}, {reset.condition, true}}), rule.level) == Answer::kYes) return Loss{id, *cell};
+      for (const Alike& alike : resets->second) {
+        const Rule& first = program_[alike.front()];
+        const auto cell = first.level == rule.level ? undone(subject_, demands, first) : std::nullopt;
+        if (!cell) continue;
+        for (const RuleId id : alike) {
+          const Goal goals[] = {{rule.condition, true}, {program_[id].condition, true}};
+          if (satisfier_.together(goals, rule.level) == Answer::kYes) return Loss{id, *cell};
+        }
       }
     }
     return std::nullopt;
@@ -89,7 +102,7 @@ class SilencedQuestions {
   const Program& program_;
   Satisfier satisfier_;
   std::vector<bool> resets_at_;           // by level
-  std::unordered_map<std::size_t, std::vector<RuleId>> resets_;   // by fact: the rules that reset and wait for it
+  std::unordered_map<std::size_t, std::vector<Alike>> resets_;   // by fact: the rules that reset and wait for it
 };
 
 }  // namespace

@@ -26,6 +26,9 @@ void for_each_net_write(const Program& program, const Rule& rule, F&& f) {
 /// What `rule` writes to `cell`; nothing if it leaves it alone. `group_of` is group_of_cells(program). Cost: two binary searches.
 [[nodiscard]] std::optional<float> net_value(const Program& program, const std::vector<std::uint32_t>& group_of, const Rule& rule, CellId cell);
 
+/// Whether two rules write the same.
+[[nodiscard]] inline bool same_effects(const Rule& a, const Rule& b) { return a.reset == b.reset && a.clears == b.clears && a.writes == b.writes; }
+
 /// The rules among `fired` that are of this level and write this cell: those behind a conflict. In the order of `fired`.
 [[nodiscard]] std::vector<RuleId> writers_among(const Program& program, const std::vector<RuleId>& fired,
                                                 std::uint32_t level, CellId cell);

@@ -72,6 +72,7 @@ struct Cond {
 struct Write {
   CellId cell = CellId::kNone;
   float value = 0.0f;
+  friend bool operator==(const Write&, const Write&) = default;
 };
 
 /// note [net effects]
