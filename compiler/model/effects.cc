@@ -77,7 +77,9 @@ Outcome Effects::evaluate_one(const Pattern& pattern, Environment values, Writes
     return Outcome::kBroken;
   }
   if (operand.kind != Operand::Kind::kCells && text.find('[') == std::string_view::npos) {
-    draft_.diagnostics.report(Kind::kWriteWholeGroup, references_.span(pattern.ref), {text, references_.describe(operand)});
+    const std::string all = fmt::format("{}[*]", text);
+    if (!cells->empty() && !may_write(pattern, cells->front(), all)) return Outcome::kBroken;
+    draft_.diagnostics.report(Kind::kWriteWholeGroup, references_.span(pattern.ref), {text, references_.describe(operand), pattern.sat ? "sat " + all : all});
     return Outcome::kBroken;
   }
   for (const CellId cell : *cells) {
@@ -86,21 +88,23 @@ Outcome Effects::evaluate_one(const Pattern& pattern, Environment values, Writes
   return Outcome::kMade;
 }
 
-Outcome Effects::write(const Pattern& pattern, CellId cell, Writes& writes) {
+bool Effects::may_write(const Pattern& pattern, CellId cell, std::string_view text) {
   const Cell& known = draft_.model[cell];
-  const std::string_view text = references_.text(pattern.ref);
   const bool satellite = known.kind == CellKind::kSatellite;
   if (pattern.sat && satellite) {
     draft_.diagnostics.report(Kind::kSatOfSatellite, references_.span(pattern.ref), {text})
         .note(Kind::kNameDeclaredHere, known.declared, {known.name});
-    return Outcome::kBroken;
-  }
-  if (!pattern.sat && !satellite) {
+  } else if (!pattern.sat && !satellite) {
     const Kind kind = known.kind == CellKind::kFact ? Kind::kWriteToFact : Kind::kWriteToStrategy;
     draft_.diagnostics.report(kind, references_.span(pattern.ref), {text})
         .note(Kind::kNameDeclaredHere, known.declared, {known.name});
-    return Outcome::kBroken;
   }
+  return pattern.sat != satellite;
+}
+
+Outcome Effects::write(const Pattern& pattern, CellId cell, Writes& writes) {
+  if (!may_write(pattern, cell, references_.text(pattern.ref))) return Outcome::kBroken;
+  const bool satellite = draft_.model[cell].kind == CellKind::kSatellite;
   writes.push_back({satellite ? cell : own_satellite(draft_.model, cell), pattern.value, pattern.span, false});
   return Outcome::kMade;
 }
