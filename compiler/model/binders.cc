@@ -40,12 +40,16 @@ bool read_range(Draft& draft, syntax::Name name, Binder& binder, Range& range) {
     return true;
   }
   if (entity != nullptr && entity->kind == Entity::Kind::kGroup) {
-    add_group(draft, draft.model.groups[entity->id], range);
+    const Group& group = draft.model.groups[entity->id];
+    if (group.dimensions.size() == 1) binder.set = group.dimensions.front();
+    add_group(draft, group, range);
     return true;
   }
   const auto set = need_set(draft, name, true);
-  if (set) add_members(draft, *set, {}, range);
-  return set.has_value();
+  if (!set) return false;
+  binder.set = *set;
+  add_members(draft, *set, {}, range);
+  return true;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using diagnostics::Kind;
 class RuleReader {
  public:
   RuleReader(Draft& draft, const syntax::Tree& tree, const syntax::Rule& rule)
-      : draft_(draft), rule_(rule), references_(draft, tree, binders_), conditions_(draft, tree, references_), effects_(draft, references_) {}
+      : draft_(draft), rule_(rule), references_(draft, tree, binders_, rule.name.text), conditions_(draft, tree, references_), effects_(draft, references_) {}
 
   void run() {
     const std::size_t errors = draft_.diagnostics.errors();

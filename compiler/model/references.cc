@@ -1,6 +1,8 @@
 // Compiles references: looks up names, and evaluates what does not depend on binders.
 #include "compiler/model/references.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -250,7 +252,13 @@ std::uint32_t References::compile_member_field(std::uint32_t object, const synta
     operand.cell = group.cells[member->index];
     return add_constant(std::move(operand), span);
   }
-  report_unknown_member(draft_, Kind::kUnknownMember, postfix.field, {group.name, group.declared, set});
+  if (std::ranges::any_of(binders_, [&](const Binder& b) { return b.name.text == postfix.field.text; })) {
+    draft_.diagnostics.report(Kind::kUnknownMember, span, {postfix.field.text, group.name})
+        .note(Kind::kNameDeclaredHere, group.declared, {group.name})
+        .suggest(fmt::format("{}[{}]", text(object), postfix.field.text));
+  } else {
+    report_unknown_member(draft_, Kind::kUnknownMember, postfix.field, {group.name, group.declared, set});
+  }
   return add_broken(span);
 }
 
@@ -347,11 +355,19 @@ std::uint32_t References::compile_argument(const syntax::Index& argument, SetId 
       return add_constant(std::move(operand), ref.span);  // a member of the wrong set is reported when it is evaluated
     }
   }
-  const FiniteSet& known = draft_.model.sets[index(set)];
-  std::vector<std::string_view> variables;
-  for (const Binder& binder : binders_) variables.push_back(binder.name.text);
-  report_unknown_member(draft_, Kind::kUnknownMember, ref.base, {known.name, {}, known}, std::move(variables));
+  report_unknown_index(ref.base, set);
   return add_broken(ref.span);
+}
+
+/// What is no member may be a variable that was misspelt or not declared.
+void References::report_unknown_index(const syntax::Name& name, SetId set) {
+  const FiniteSet& known = draft_.model.sets[index(set)];
+  Variables variables{{}, {}, rule_};
+  for (const Binder& binder : binders_) {
+    variables.names.push_back(binder.name.text);
+    if (binder.set == set && !binder.used) variables.unused = binder.name.text;
+  }
+  report_unknown_member(draft_, Kind::kUnknownMember, name, {known.name, {}, known}, variables);
 }
 
 }  // namespace kb::model

@@ -37,12 +37,14 @@ struct Binder {
   RelationId relation = RelationId::kNone;  ///< if it ranges over rows
   bool used = false;
   bool broken = false;                      ///< what it ranges over is unknown; reported
+  SetId set = SetId::kNone;                 ///< if it ranges over members
 };
 
 class References {
  public:
-  References(Draft& draft, const syntax::Tree& tree, std::vector<Binder>& binders)
-      : draft_(draft), tree_(tree), binders_(binders) {}
+  /// `rule` is the name of the rule that the references stand in; empty if they stand elsewhere.
+  References(Draft& draft, const syntax::Tree& tree, std::vector<Binder>& binders, std::string_view rule = {})
+      : draft_(draft), tree_(tree), binders_(binders), rule_(rule) {}
 
   /// The compiled form of a reference. Errors are reported and give a form that evaluates to kBroken.
   std::uint32_t compile(syntax::RefId ref);
@@ -94,6 +96,7 @@ class References {
   std::uint32_t compile_base(const syntax::Ref& ref, std::size_t& postfix);
   std::uint32_t compile_entity(const Entity& entity, const syntax::Ref& ref, std::size_t& postfix);
   void report_unknown(const syntax::Name& name);
+  void report_unknown_index(const syntax::Name& name, SetId set);
   std::uint32_t compile_field(std::uint32_t object, const syntax::Postfix& postfix, source::Span span);
   std::uint32_t compile_member_field(std::uint32_t group, const syntax::Postfix& postfix, source::Span span);
   std::uint32_t compile_index(std::uint32_t object, const syntax::Postfix& postfix, source::Span span);
@@ -115,6 +118,7 @@ class References {
   Draft& draft_;
   const syntax::Tree& tree_;
   std::vector<Binder>& binders_;
+  std::string_view rule_;
   std::vector<Pattern> patterns_;
 };
 

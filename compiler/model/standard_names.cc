@@ -81,12 +81,16 @@ void report_unknown(Draft& draft, Kind kind, const syntax::Name& name, std::opti
   finish(message, may ? draft.library->file_with(name.text) : std::nullopt, std::move(nearest));
 }
 
-void report_unknown_member(Draft& draft, Kind kind, const syntax::Name& name, const MembersOf& of, std::vector<std::string_view> others) {
-  others.insert(others.begin(), of.set.members.begin(), of.set.members.end());
-  std::optional<std::string> nearest = draft.diagnostics.nearest(name.text, others);
+void report_unknown_member(Draft& draft, Kind kind, const syntax::Name& name, const MembersOf& of, const Variables& variables) {
+  std::vector<std::string_view> candidates(of.set.members.begin(), of.set.members.end());
+  candidates.insert(candidates.end(), variables.names.begin(), variables.names.end());
+  std::optional<std::string> nearest = draft.diagnostics.nearest(name.text, candidates);
+  if (!nearest && !variables.unused.empty()) nearest = variables.unused;
+  const auto file = draft.library != nullptr ? draft.library->file_with_member(of.set.name, name.text) : std::nullopt;
   auto message = draft.diagnostics.report(kind, name.span, {name.text, of.name});
   if (of.declared.known()) message.note(Kind::kNameDeclaredHere, of.declared, {of.name});
-  finish(message, draft.library != nullptr ? draft.library->file_with_member(of.set.name, name.text) : std::nullopt, std::move(nearest));
+  if (!nearest && !file && !variables.rule.empty()) message.note(Kind::kVariableBehindName, {}, {variables.rule, name.text, of.name});
+  finish(message, file, std::move(nearest));
 }
 
 }  // namespace kb::model

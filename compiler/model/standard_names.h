@@ -44,7 +44,13 @@ struct FiniteSet;
 void report_unknown(Draft& draft, diagnostics::Kind kind, const syntax::Name& name, std::optional<std::string> nearest);
 /// The set that lacks a member, or a group whose members are those of a set. `declared` may be unknown.
 struct MembersOf { std::string_view name; source::Span declared; const FiniteSet& set; };
-/// The same for an unknown member. The nearest name may be another member or one of `others`.
-void report_unknown_member(Draft& draft, diagnostics::Kind kind, const syntax::Name& name, const MembersOf& of, std::vector<std::string_view> others = {});
+/// The variables that may have been meant in place of a member.
+struct Variables {
+  std::vector<std::string_view> names;
+  std::string_view unused;   ///< one that ranges over the set and that nothing has used so far; empty if there is none
+  std::string_view rule;     ///< the rule that could declare one; empty if no rule could
+};
+/// The same for an unknown member. The nearest name may be another member or a variable.
+void report_unknown_member(Draft& draft, diagnostics::Kind kind, const syntax::Name& name, const MembersOf& of, const Variables& variables = {});
 
 }  // namespace kb::model
