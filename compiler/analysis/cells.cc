@@ -52,8 +52,7 @@ class CellQuestions {
     mark_landmarks();
     mark_parts();
     mark_helped();
-    const auto output = [](const Cell& cell) { return cell.output; };
-    if (std::any_of(program_.cells.begin(), program_.cells.end(), output)) mark_shifted();
+    mark_shifted();
   }
 
   void run() {
@@ -138,8 +137,8 @@ class CellQuestions {
     const program::Rule& rule = program_[reader(found.front())];
     // If only a rule of the user asks for a satellite of the library, the message is about the rule.
     const bool at_reader = subject_.in_library(cell.declared) && !rule.standard;
-    auto message = subject_.diagnostics.report(Kind::kNeverSet, at_reader ? rule.span : cell.declared,
-                                               {cell.name, cell.initial < 0.0f ? "raises" : "changes", more_of(found)});
+    const std::string_view never = shifted_[program::index(found.front())] ? "changes whether it is `low`, `zero` or `high`" : cell.initial < 0.0f ? "raises it" : "changes it";
+    auto message = subject_.diagnostics.report(Kind::kNeverSet, at_reader ? rule.span : cell.declared, {cell.name, never, more_of(found)});
     if (!at_reader) message.note(Kind::kReadHere, rule.span, {rule.name});
   }
 
