@@ -136,6 +136,39 @@ void diagnose_void(Subject& subject) {
   });
 }
 
+/// By cell: the cell that it is a satellite of.
+std::vector<CellId> attended_by(const Program& program) {
+  std::vector<CellId> attended(program.cells.size(), CellId::kNone);
+  for (std::uint32_t i = 0; i < program.cells.size(); ++i) {
+    for (const CellId satellite : program.cells[i].satellites) attended[program::index(satellite)] = CellId{i};
+  }
+  return attended;
+}
+
+/// Reports rules that raise a satellite of something, such as that of a command, which is high all the time. Where it is no satellite of
+/// anything, the message is that rules read it and it never changes.
+void diagnose_needless(Subject& subject) {
+  const Program& program = subject.program;
+  const std::vector<CellId> attended = attended_by(program);
+  const auto firing = static_cast<float>(program.settings.firing);
+  const auto always_high = [&](const program::Write& write) {
+    const std::size_t cell = program::index(write.cell);
+    const bool high = program[write.cell].initial >= firing && subject.domains.cells[cell] == region_of(program[write.cell].initial, firing);
+    return high && write.value > 0.0f && attended[cell] != CellId::kNone && subject.group_of[cell] == program::kNoGroup;
+  };
+  ByFamily<CellId> found(subject);
+  for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
+    const Rule& rule = program.rules[i];
+    const auto write = std::ranges::find_if(rule.writes, always_high);
+    if (!Subject::generated(rule) && write != rule.writes.end()) found.add(RuleId{i}, write->cell);
+  }
+  found.for_each([&](RuleId id, CellId cell, std::uint32_t count) {
+    const program::Cell& of = program[attended[program::index(cell)]];
+    auto message = subject.diagnostics.report(Kind::kChangesNothing, program[id].span, {program[cell].name, program[id].name, more(count)});
+    if (of.kind == program::CellKind::kFact) message.note(Kind::kAttentionAlone, {}, {program[cell].name, of.name});
+  });
+}
+
 bool same(const Rule& a, const Rule& b) {
   return a.level == b.level && a.mode == b.mode && a.condition == b.condition && program::same_effects(a, b);
 }
@@ -243,6 +276,7 @@ void diagnose_effects(Subject& subject) {
   diagnose_resets(subject);
   diagnose_late(subject);
   diagnose_void(subject);
+  diagnose_needless(subject);
   diagnose_duplicates(subject);
   diagnose_self_defeating(subject);
 }
