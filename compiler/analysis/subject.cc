@@ -93,7 +93,10 @@ void find_clans(Subject& subject) {
   for (const model::Group& group : model.groups) {
     const bool own_names =
         group.dimensions.size() == 1 && model.sets[model::index(group.dimensions[0])].name == group.name;
-    const std::uint32_t clan = found(!own_names);
+    // Strategies for each member of a set of the user's are as if they had been written with these names.
+    const bool users = group.kind == model::CellKind::kStrategy && group.dimensions.size() == 1 &&
+                       !subject.in_library(model.sets[model::index(group.dimensions[0])].declared);
+    const std::uint32_t clan = found(!own_names && !users);
     for (const model::CellId cell : group.cells) clan_of[model::index(cell)] = clan;
   }
   for (const model::Relation& relation : model.relations) {
