@@ -154,9 +154,11 @@ void check_controls(const program::Program& program, diagnostics::Diagnostics& d
       for (const auto& argument : control.arguments) check_argument(control, argument, entry->id, diagnostics);
       continue;
     }
-    for (const mts::ControllerEntry& known : mts::kControllers) {
-      if (diagnostics::is_slip_of(control.controller, known.name)) diagnostics.report(Kind::kControlName, at, {control.controller}).suggest(std::string(known.name));
-    }
+    const auto compare = [&](std::string_view known) {
+      if (diagnostics::is_slip_of(control.controller, known)) diagnostics.report(Kind::kControlName, at, {control.controller}).suggest(std::string(known));
+    };
+    for (const fuzzy::Controller& known : program.fuzzy) compare(known.name);
+    for (const mts::ControllerEntry& known : mts::kControllers) compare(known.name);
   }
 }
 
