@@ -31,7 +31,7 @@ std::string_view singular(TokenKind declaration) {
 
 void SyntaxError::report() {
   if (stream_.is_spoilt() || stream_.is_reported()) return;
-  const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_trailing_comma() ||
+  const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_late_of() || is_trailing_comma() ||
                      is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() || is_map_line() ||
                      is_rule_head() || is_percept() || is_condition() || is_effect() || is_route() || is_road() || is_order() ||
                      is_quoted_name() || is_missing_comma() || is_type() || is_member_value() || is_unknown_attribute() || is_word_as_name();
@@ -75,7 +75,7 @@ bool SyntaxError::is_hyphen() {
   source::Span all = last_.span;
   for (std::size_t i = 0;; i += 2) {
     const Token hyphen = i == 0 ? found_ : stream_.ahead(i), next = stream_.ahead(i + 1);
-    const bool part = next.kind == T::kIdentifier || (next.kind == T::kNumber && text(next.span).find('.') == std::string_view::npos);
+    const bool part = next.kind == T::kIdentifier || is_keyword(next.kind) || (next.kind == T::kNumber && text(next.span).find('.') == std::string_view::npos);
     if (hyphen.kind != T::kMinus || !part || hyphen.span.begin != all.end || next.span.begin != hyphen.span.end) break;
     name += '_';
     name += text(next.span);
@@ -91,6 +91,13 @@ bool SyntaxError::is_name_behind_attributes() {
   const Token next = stream_.ahead(1);
   if (kind_ != T::kComma || !is_declaration(statement_) || !wants(T::kExclusive) || next.kind != T::kIdentifier) return false;
   return say(Kind::kNameBehindAttributes, found_.span, {singular(statement_), text(next.span)});
+}
+
+// `satellite Y = 1 of A`
+bool SyntaxError::is_late_of() {
+  const bool satellites = statement_ == T::kSatellite || statement_ == T::kSatellites;
+  if (!satellites || kind_ != T::kOf || !wants(T::kExclusive) || last_.kind == T::kIdentifier || is_right(last_.kind)) return false;
+  return say(Kind::kOfBehindValue, found_.span, {text(stream_.ahead(1).span)});
 }
 
 bool SyntaxError::is_trailing_comma() {
@@ -192,6 +199,7 @@ bool SyntaxError::is_member_value() {
 }
 
 bool SyntaxError::is_unknown_attribute() {
+  if (statement_ == T::kRelation && (kind_ == T::kKeep || kind_ == T::kOutput)) return say(Kind::kUnknownAttribute, found_.span, {text(), singular(statement_)});
   const bool list = is_declaration(statement_) && wants(T::kExclusive) && !found_.begins_line;
   if (!list || kind_ != T::kIdentifier) return false;
   constexpr std::string_view kAttributes[] = {"exclusive", "keep", "output", "sat", "event", "attention", "of"};

@@ -32,6 +32,7 @@ class SyntaxError {
   [[nodiscard]] bool is_decimal_comma();
   [[nodiscard]] bool is_hyphen();
   [[nodiscard]] bool is_name_behind_attributes();
+  [[nodiscard]] bool is_late_of();
   [[nodiscard]] bool is_trailing_comma();
   [[nodiscard]] bool is_empty_list();
   [[nodiscard]] bool is_range();

@@ -7,12 +7,9 @@
 #include "compiler/syntax/syntax_mistakes.h"
 
 namespace kb::syntax {
-namespace {
 
 using diagnostics::Kind;
 using T = TokenKind;
-
-}  // namespace
 
 bool SyntaxError::is_rule_head() {
   if (statement_ != T::kRule) return false;
@@ -89,15 +86,21 @@ bool SyntaxError::is_effect_value() {
   const source::Span all = source::join(effect, sign && stream_.ahead(1).kind != T::kEnd ? stream_.ahead(1).span : found_.span);
   std::string_view satellite = text(effect).substr(sign ? 1 : 0);
   satellite = satellite.substr(0, satellite.find_last_not_of(" =") + 1);
-  constexpr std::string_view kTruths[] = {"on", "off", "true", "false", "yes"};
+  constexpr std::string_view kTruths[] = {"on", "off", "true", "false", "yes", "low", "zero", "high"};
   if (word && kind_ == T::kIdentifier && std::ranges::find(kTruths, text()) == std::end(kTruths)) return is_effect_member(effect, satellite);
   return say(Kind::kEffectValue, all, {text(all), satellite});
 }
 
-// `then Way = left`, `then Way = Way.left`: written as an assignment of a state
+// `then Way = left`, `then Way = Way.left`: written as an assignment of a state; `then Way = Way + 0.1`
 bool SyntaxError::is_effect_member(source::Span effect, std::string_view group) {
   const bool full = stream_.ahead(1).kind == T::kDot && stream_.ahead(2).kind == T::kIdentifier;
   const source::Span named = full ? source::join(found_.span, stream_.ahead(2).span) : found_.span, all = source::join(effect, named);
+  const Token behind = stream_.ahead(full ? 3 : 1);
+  const bool computes = behind.kind == T::kPlus || behind.kind == T::kMinus || behind.kind == T::kStar || behind.kind == T::kSlash;
+  if (computes || (!full && text(named) == group)) {
+    const source::Span whole = source::join(all, computes ? stream_.ahead(full ? 4 : 2).span : named);
+    return say(Kind::kEffectSum, whole, {text(whole)});
+  }
   const std::string member = (full ? std::string() : std::string(group) + ".") + std::string(text(named));
   return say(Kind::kEffectMember, all, {text(all), member});
 }
