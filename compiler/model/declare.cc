@@ -35,8 +35,8 @@ Entity::Kind entity_kind(Declaration::Kind kind) {
 
 class DeclarationReader {
  public:
-  DeclarationReader(Draft& draft, const Declaration& declaration)
-      : draft_(draft), declaration_(declaration), kind_(cell_kind(declaration.kind)) {}
+  DeclarationReader(Draft& draft, const syntax::Tree& tree, const Declaration& declaration)
+      : draft_(draft), tree_(tree), declaration_(declaration), kind_(cell_kind(declaration.kind)) {}
 
   void run() {
     check_attributes();
@@ -60,7 +60,7 @@ class DeclarationReader {
       if (declaration_.output) refuse("output", *declaration_.output, kind_ == CellKind::kFact ? "; the program gives them" : "; the program is told which one runs");
       if (declaration_.initial) refuse("= v", declaration_.initial->span, kind_ == CellKind::kFact ? "; their satellites begin as `sat = v` says" : kWantedFromStart);
       for (const Declaration::Item& item : declaration_.items) {
-        if (item.of) refuse("of", item.name.span);
+        if (item.of) refuse("of", tree_[*item.of].span);
       }
     }
     if (kind_ != CellKind::kFact) {
@@ -73,7 +73,8 @@ class DeclarationReader {
     if (kind_ == CellKind::kStrategy && declaration_.exclusive) {
       refuse("exclusive", *declaration_.exclusive, "; one runs at a time as it is, by `priority`");
     }
-    check_range(declaration_.initial);
+    if (kind_ == CellKind::kSatellite) check_range(declaration_.initial);
+    if (kind_ != CellKind::kFact) return;
     check_range(declaration_.sat_initial);
     refuse_unit(declaration_.event);
     refuse_unit(declaration_.attention);
@@ -218,6 +219,7 @@ class DeclarationReader {
   }
 
   Draft& draft_;
+  const syntax::Tree& tree_;
   const Declaration& declaration_;
   CellKind kind_;
   std::vector<CellId> made_;
@@ -286,7 +288,7 @@ void declare_all(Draft& draft) {
   for (const syntax::Tree& tree : draft.forest.trees) {
     for (const syntax::Statement& statement : tree.statements) {
       if (draft.exhausted) return;
-      if (const auto* declaration = std::get_if<Declaration>(&statement.node)) DeclarationReader(draft, *declaration).run();
+      if (const auto* declaration = std::get_if<Declaration>(&statement.node)) DeclarationReader(draft, tree, *declaration).run();
       if (const auto* map = std::get_if<syntax::Map>(&statement.node)) declare_map(draft, *map);
     }
   }
