@@ -39,6 +39,24 @@ void mark(std::vector<bool>& set, Kind kind, bool value) {
   set[static_cast<std::size_t>(kind)] = value;
 }
 
+/// Whether messages of the kind say that something named nowhere is known. A misspelt name mostly stands in many places.
+bool says_unknown(Kind kind) {
+  switch (kind) {
+    case Kind::kUnknownSet:
+    case Kind::kUnknownMember:
+    case Kind::kUnknownField:
+    case Kind::kRoadUnknownLandmark:
+    case Kind::kUnknownExit:
+    case Kind::kUnknownMethod:
+    case Kind::kUnknownMap:
+    case Kind::kUnknownCommand:
+    case Kind::kUnknownLandmark:
+    case Kind::kUnknownLevel:
+    case Kind::kUnknownRelation: return true;
+    default: return false;
+  }
+}
+
 }  // namespace
 
 bool WarningOptions::apply(std::string_view option) {
@@ -98,8 +116,9 @@ bool Diagnostics::wanted(Diagnostic& d) const {
 void Diagnostics::finish(Diagnostic&& d) {
   if (!wanted(d) || (filter_ && !filter_(d))) return;
   // Messages without a place differ in their words: two files that cannot be read are two messages.
-  const source::Span other = d.notes.empty() ? source::Span{} : d.notes.front().span;
-  if (!said_.insert({d.kind, d.span, other, d.span.known() ? std::string() : d.message}).second) return;
+  const bool by_words = !d.span.known() || says_unknown(d.kind);
+  const source::Span place = by_words ? source::Span{} : d.span, other = by_words || d.notes.empty() ? source::Span{} : d.notes.front().span;
+  if (!said_.insert({d.kind, place, other, by_words ? d.message : std::string()}).second) return;
   const bool error = d.severity == Severity::kError;
   broken_ = broken_ || info(d.kind).severity == Severity::kError;
   const std::size_t nth = error ? ++errors_ : ++warnings_;

@@ -112,7 +112,8 @@ class Builder {
 };
 
 /// Hands messages on to one consumer, counts them, and stops an avalanche: at most `kMaxErrors` errors and as many warnings
-/// are handed on (a last note without a place says so), and no two messages of one kind at one place.
+/// are handed on (a last note without a place says so), no two messages of one kind at one place, and only one that says that a certain
+/// name is unknown.
 class Diagnostics {
  public:
   static constexpr std::size_t kMaxErrors = 200;
@@ -155,7 +156,7 @@ class Diagnostics {
     Kind kind;
     source::Span span;
     source::Span other;    // of the first note: one rule can disagree with several others
-    std::string message;   // only where no span is known
+    std::string message;   // only where no span is known, or the place does not matter
     bool operator<(const Said& that) const;
   };
   std::set<Said> said_;
