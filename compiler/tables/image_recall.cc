@@ -1,5 +1,8 @@
 // From tables back to core rules, as far as an image still contains them.
+#include <fmt/format.h>
+
 #include "compiler/program/conditions.h"
+#include "compiler/source/numbers.h"
 #include "compiler/tables/image.h"
 #include "compiler/tables/lists.h"
 
@@ -89,8 +92,19 @@ class Recall {
   }
   [[nodiscard]] CellId strategy(I i) const { return CellId{t_.shape.facts + t_.shape.satellites + i}; }
 
+  /// The number that was written: of all that are rounded to `x`, the one with the fewest digits.
+  [[nodiscard]] static double written(float x) {
+    double number = 0.0;
+    return source::read_number(fmt::format("{}", x), number) ? number : static_cast<double>(x);
+  }
+  /// What was subtracted from `plain` to get `attended`.
+  [[nodiscard]] static double attention(double plain, float attended) {
+    const double exact = plain - static_cast<double>(attended), round = written(static_cast<float>(plain - written(attended)));
+    return static_cast<float>(plain - round) == attended ? round : exact;
+  }
+
   void settings() {
-    p_.settings.firing = static_cast<double>(t_.firing);
+    p_.settings.firing = written(t_.firing);
     p_.settings.idle = static_cast<program::Idle>(t_.idle);
     if (t_.idle == mts::Idle::kStrategy) p_.settings.idle_strategy = strategy(t_.idle_strategy);
     p_.settings.hold_limit_us = t_.hold_limit_us;
@@ -102,11 +116,10 @@ class Recall {
     p_.satellites = t_.shape.satellites;
     p_.strategies = t_.shape.strategies;
     for (I f = 0; f < t_.shape.facts; ++f) {
-      const double plain = static_cast<double>(t_.fact_atoms[f].plain), attended = static_cast<double>(t_.fact_atoms[f].attended);
       program::Cell& cell = p_.cells.emplace_back();
       cell.name = name(mts::ImageKind::kFact, f);
-      cell.event = plain;
-      cell.attention = plain - attended;
+      cell.event = written(t_.fact_atoms[f].plain);
+      cell.attention = attention(cell.event, t_.fact_atoms[f].attended);
     }
     for (I s = 0; s < t_.shape.satellites; ++s) {
       program::Cell& cell = p_.cells.emplace_back();
