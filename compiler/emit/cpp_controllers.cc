@@ -148,22 +148,10 @@ void drive_fuzzy(const CppInput& in, const Controller& c, const Control& control
   fmt::format_to(Out(out), "      controllers.{}({}::evaluate(in));\n      break;\n    }}\n", c.method, c.fuzzy->type);
 }
 
-}  // namespace
+using Lines = std::vector<const Control*>;   // by strategy; null where no line gives a controller
 
-void emit_controllers(const CppInput& in, std::string& out) {
-  const std::vector<FuzzyNames> fuzzy = make_fuzzy_names(in.program);
-  const std::vector<Controller> controllers = collect(in, fuzzy);
-  emit_structs(controllers, out);
-  std::vector<const Control*> of(in.program.strategies, nullptr);
-  for (const Control& control : in.program.controls) {
-    of[index(control.strategy) - in.program.facts - in.program.satellites] = &control;
-  }
-  out +=
-      "/// Stands for a strategy that no `control` line gives a controller: the host's own.\n"
-      "template <Strategy kStrategy>\nstruct Run {\n  static constexpr Strategy strategy = kStrategy;\n};\n\n"
-      "/// Hands the decision to its controller: calls exactly one function of `controllers`. A missing one does not compile.\n"
-      "template <class Controllers>\nvoid drive(const Decision& decision, Controllers& controllers) {\n"
-      "  static_assert(requires { controllers.idle(); }, \"no `idle()`: what the robot does when no strategy runs (stand)\");\n";
+/// Assertions that name what the host's `Controllers` lacks.
+void demand_functions(const CppInput& in, const std::vector<Controller>& controllers, const Lines& of, std::string& out) {
   for (const Controller& c : controllers) {
     if (c.fuzzy != nullptr) {
       demand_fuzzy(c, out);
@@ -178,7 +166,9 @@ void emit_controllers(const CppInput& in, std::string& out) {
                    in.names.strategies[s], in.names.strategies[s],
                    in.program.cells[in.program.facts + in.program.satellites + s].name);
   }
-  out += "  if (!decision.drives()) {\n    controllers.idle();\n    return;\n  }\n  switch (decision.strategy()) {\n";
+}
+
+void emit_cases(const CppInput& in, const std::vector<Controller>& controllers, const Lines& of, std::string& out) {
   for (std::size_t s = 0; s < of.size(); ++s) {
     const std::string& name = in.names.strategies[s];
     if (of[s] == nullptr) {
@@ -195,6 +185,27 @@ void emit_controllers(const CppInput& in, std::string& out) {
     fmt::format_to(Out(out), "    case Strategy::{}: {{\n      {}{} arguments;\n{}      controllers.{}(arguments);\n      break;\n    }}\n",
                    name, lines.empty() ? "const " : "", c->type, lines, c->method);
   }
+}
+
+}  // namespace
+
+void emit_controllers(const CppInput& in, std::string& out) {
+  const std::vector<FuzzyNames> fuzzy = make_fuzzy_names(in.program);
+  const std::vector<Controller> controllers = collect(in, fuzzy);
+  emit_structs(controllers, out);
+  Lines of(in.program.strategies, nullptr);
+  for (const Control& control : in.program.controls) {
+    of[index(control.strategy) - in.program.facts - in.program.satellites] = &control;
+  }
+  out +=
+      "/// Stands for a strategy that no `control` line gives a controller: the host's own.\n"
+      "template <Strategy kStrategy>\nstruct Run {\n  static constexpr Strategy strategy = kStrategy;\n};\n\n"
+      "/// Hands the decision to its controller: calls exactly one function of `controllers`. A missing one does not compile.\n"
+      "template <class Controllers>\nvoid drive(const Decision& decision, Controllers& controllers) {\n"
+      "  static_assert(requires { controllers.idle(); }, \"no `idle()`: what the robot does when no strategy runs (stand)\");\n";
+  demand_functions(in, controllers, of, out);
+  out += "  if (!decision.drives()) {\n    controllers.idle();\n    return;\n  }\n  switch (decision.strategy()) {\n";
+  emit_cases(in, controllers, of, out);
   out += "    default: break;\n  }\n}\n\n";   // never taken; -Wswitch-default demands it
 }
 

@@ -24,35 +24,46 @@ struct Group {
   std::vector<std::pair<std::string, std::size_t>> members;   ///< identifier, fact
 };
 
-}  // namespace
-
-void emit_facts(const CppInput& in, std::string& out) {
-  const std::uint32_t count = in.program.facts;
-  std::vector<Group> groups;             // in order of first appearance
-  std::map<std::string_view, std::size_t> known;
+/// Facts by the names that they have in C++. None if there are so many that none gets a name.
+struct Named {
   std::vector<std::pair<std::string, std::size_t>> plain;
+  std::vector<Group> groups;   ///< in order of first appearance
+};
+
+Named name_facts(const CppInput& in) {
+  Named named;
+  const std::uint32_t count = in.program.facts;
+  std::map<std::string_view, std::size_t> known;
   Scope scope{"store_", "store", "set", "get", "clear", "Fact", "Facts", "Store"};
   std::vector<Scope> scopes;
   for (std::size_t f = 0; f < count && count <= kMaxNamedFacts; ++f) {
     const auto [base, member] = split(in.program.cells[f].name);
     if (member.empty()) {
-      plain.emplace_back(scope.make(base), f);
+      named.plain.emplace_back(scope.make(base), f);
       continue;
     }
-    const auto [at, fresh] = known.try_emplace(base, groups.size());
+    const auto [at, fresh] = known.try_emplace(base, named.groups.size());
     if (fresh) {
-      groups.push_back({scope.make(base), {}});
+      named.groups.push_back({scope.make(base), {}});
       scopes.emplace_back(std::initializer_list<std::string_view>{"Store"});
     }
-    groups[at->second].members.emplace_back(scopes[at->second].make(member), f);
+    named.groups[at->second].members.emplace_back(scopes[at->second].make(member), f);
   }
+  return named;
+}
+
+}  // namespace
+
+void emit_facts(const CppInput& in, std::string& out) {
+  const std::uint32_t count = in.program.facts;
+  const Named named = name_facts(in);
   // These names cannot clash with the group's type or a parameter: names made from those of the knowledge base do not end in an underscore,
   // except for words of C++.
   fmt::format_to(Out(out),
                  "/// What is known at a tick: a certainty factor in [-1, 1] for each fact, 0 for no data. Values stay until they "
                  "are\n/// set again.\nstruct Facts {{\n  using Store = mts::FactStore<{}>;\n\n",
                  count);
-  for (const Group& group : groups) {
+  for (const Group& group : named.groups) {
     fmt::format_to(Out(out), "  union {}Group_ {{\n", group.name);
     for (const auto& [name, fact] : group.members) {
       fmt::format_to(Out(out), "    mts::FactSlot<Store, {}> {};\n", fact, name);
@@ -60,8 +71,8 @@ void emit_facts(const CppInput& in, std::string& out) {
     out += "  };\n";
   }
   out += "  union {\n    Store store_;\n";
-  for (const auto& [name, fact] : plain) fmt::format_to(Out(out), "    mts::FactSlot<Store, {}> {};\n", fact, name);
-  for (const Group& group : groups) fmt::format_to(Out(out), "    {0}Group_ {0};\n", group.name);
+  for (const auto& [name, fact] : named.plain) fmt::format_to(Out(out), "    mts::FactSlot<Store, {}> {};\n", fact, name);
+  for (const Group& group : named.groups) fmt::format_to(Out(out), "    {0}Group_ {0};\n", group.name);
   fmt::format_to(Out(out),
                  "  }};\n\n"
                  "  Facts() : store_() {{}}\n"

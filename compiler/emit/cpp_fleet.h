@@ -17,8 +17,6 @@ struct FleetInput {
   FleetNames names;
 };
 
-/// The enumeration of planes, and where things have theirs.
-void emit_fleet_layout(const FleetInput& in, std::string& out);
 /// The tick of a word of robots, as straight code.
 void emit_fleet_kernel(const FleetInput& in, std::string& out);
 

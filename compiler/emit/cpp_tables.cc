@@ -195,6 +195,12 @@ class TablesPrinter {
     line("    .idle = mts::Idle::{},", idle[static_cast<std::size_t>(t_.idle)]);
     line("    .idle_strategy = {},", t_.idle_strategy);
     line("    .hold_limit_us = {},", t_.hold_limit_us);
+    pointers();
+    line("}};\n");
+  }
+
+  /// In the order of the members of mts::Tables.
+  void pointers() {
     const auto pointer = [&](std::string_view field, std::string_view name, bool empty) {
       line("    .{} = {},", field, empty ? std::string_view("nullptr") : name);
     };
@@ -233,7 +239,6 @@ class TablesPrinter {
     pointer("is_and", "kIsAnd", t_.is_and.empty());
     pointer("atom_cell", "kAtomCell", t_.atom_cell.empty());
     pointer("atom_term", "kAtomTerm", t_.atom_term.empty());
-    line("}};\n");
   }
 
   const CppInput& in_;

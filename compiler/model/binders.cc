@@ -14,22 +14,13 @@ using diagnostics::Kind;
 void add_members(Draft& draft, SetId set, const std::vector<CellId>& cells, Range& range) {
   const std::vector<std::string>& members = draft.model.sets[index(set)].members;
   for (std::uint32_t i = 0; i < members.size(); ++i) {
-    Operand operand;
-    operand.kind = Operand::Kind::kMember;
-    operand.member = {set, i};
-    if (!cells.empty()) operand.cell = cells[i];
-    range.add(std::move(operand), members[i]);
+    range.add(Operand::of(Member{set, i}, cells.empty() ? CellId::kNone : cells[i]), members[i]);
   }
 }
 
 void add_group(Draft& draft, const Group& group, Range& range) {
   if (group.dimensions.size() == 1) return add_members(draft, group.dimensions.front(), group.cells, range);
-  for (const CellId cell : group.cells) {
-    Operand operand;
-    operand.kind = Operand::Kind::kCell;
-    operand.cell = cell;
-    range.add(std::move(operand), draft.model[cell].name);
-  }
+  for (const CellId cell : group.cells) range.add(Operand::of(cell), draft.model[cell].name);
 }
 
 bool read_range(Draft& draft, syntax::Name name, Binder& binder, Range& range) {

@@ -21,11 +21,7 @@ class Range {
 
   [[nodiscard]] std::size_t size() const { return relation_ == RelationId::kNone ? values_.size() : rows().size(); }
   [[nodiscard]] Operand value(std::size_t i) const {
-    if (relation_ == RelationId::kNone) return values_[i];
-    Operand operand;
-    operand.kind = Operand::Kind::kRow;
-    operand.row = rows()[i];
-    return operand;
+    return relation_ == RelationId::kNone ? values_[i] : Operand::of(rows()[i]);
   }
   [[nodiscard]] std::string_view name(std::size_t i) const {
     return relation_ == RelationId::kNone ? names_[i] : std::string_view((*model_)[rows()[i]].name);

@@ -43,6 +43,11 @@ std::optional<syntax::Term> term_of(std::string_view word) {
   return std::nullopt;
 }
 
+Cond::Op event_of(syntax::Cond::Kind kind) {
+  if (kind == syntax::Cond::Kind::kEvent) return Cond::Op::kEvent;
+  return kind == syntax::Cond::Kind::kLost ? Cond::Op::kLost : Cond::Op::kSeen;
+}
+
 std::string_view word_for(Cond::Op op) {
   if (op == Cond::Op::kEvent) return "event";
   return op == Cond::Op::kLost ? "lost" : "seen";
@@ -78,6 +83,18 @@ void Conditions::read_children(const syntax::Cond& cond, Pattern& pattern) {
   }
 }
 
+/// `X is low`, `X`. False after a message.
+bool Conditions::read_term(const syntax::Cond& cond, Pattern& pattern) {
+  const auto term = term_of(cond.term.text);
+  if (!term) {
+    draft_.diagnostics.report(Kind::kUnknownTerm, cond.term.span, {cond.term.text});
+    return false;
+  }
+  pattern.term = *term;
+  pattern.plain = cond.term.text.empty() && !cond.sat;
+  return true;
+}
+
 /// `negated` and `none` are wrapped in a `not` here.
 Conditions::Pattern Conditions::read(const syntax::Cond& cond) {
   Pattern pattern;
@@ -98,22 +115,13 @@ Conditions::Pattern Conditions::read(const syntax::Cond& cond) {
     case syntax::Cond::Kind::kLost:
     case syntax::Cond::Kind::kSeen:
       pattern.op = Pattern::Op::kEvent;
-      pattern.event = cond.kind == syntax::Cond::Kind::kEvent  ? Cond::Op::kEvent
-                      : cond.kind == syntax::Cond::Kind::kLost ? Cond::Op::kLost
-                                                               : Cond::Op::kSeen;
+      pattern.event = event_of(cond.kind);
       break;
-    case syntax::Cond::Kind::kIs: {
+    case syntax::Cond::Kind::kIs:
       pattern.op = Pattern::Op::kIs;
-      const auto term = term_of(cond.term.text);
-      if (!term) {
-        draft_.diagnostics.report(Kind::kUnknownTerm, cond.term.span, {cond.term.text});
-        return {};
-      }
-      pattern.term = *term;
-      pattern.plain = cond.term.text.empty() && !cond.sat;
+      if (!read_term(cond, pattern)) return {};
       negated = cond.negated;
       break;
-    }
     case syntax::Cond::Kind::kAny:
       pattern.op = Pattern::Op::kAny;
       negated = cond.none;

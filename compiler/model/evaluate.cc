@@ -13,33 +13,16 @@ namespace {
 Operand operand_of(const Model& model, const Value& value) {
   struct Reader {
     const Model& model;
-    Operand operator()(std::monostate) const { return make(Operand::Kind::kMissing); }
-    Operand operator()(PointId) const { return make(Operand::Kind::kPoint); }
-    Operand operator()(RowId row) const {
-      Operand operand = make(Operand::Kind::kRow);
-      operand.row = row;
-      return operand;
-    }
-    Operand operator()(CellId cell) const {
-      Operand operand = make(Operand::Kind::kCell);
-      operand.cell = cell;
-      return operand;
-    }
-    Operand operator()(Member member) const {
-      Operand operand = make(Operand::Kind::kMember);
-      operand.member = member;
-      return operand;
-    }
+    Operand operator()(std::monostate) const { return Operand::of(Operand::Kind::kMissing); }
+    Operand operator()(PointId) const { return Operand::of(Operand::Kind::kPoint); }
+    Operand operator()(RowId row) const { return Operand::of(row); }
+    Operand operator()(CellId cell) const { return Operand::of(cell); }
+    Operand operator()(Member member) const { return Operand::of(member); }
     Operand operator()(KeptId id) const {
       const KeptCondition& kept = model[id];
-      if (!kept.is_resolved) return make(Operand::Kind::kBroken);  // it could not be read, which has been reported
-      Operand operand = make(Operand::Kind::kCondition);
+      if (!kept.is_resolved) return Operand::of(Operand::Kind::kBroken);  // it could not be read, which has been reported
+      Operand operand = Operand::of(Operand::Kind::kCondition);
       operand.condition = kept.resolved;
-      return operand;
-    }
-    static Operand make(Operand::Kind kind) {
-      Operand operand;
-      operand.kind = kind;
       return operand;
     }
   };
@@ -120,12 +103,9 @@ Operand References::evaluate_index(std::uint32_t id, Environment values) {
     if (member.kind != Operand::Kind::kMember) return member;
     for (std::uint32_t& place : places) place = place * size + member.member.index;
   }
-  Operand operand;
-  operand.kind = many ? Operand::Kind::kCells : Operand::Kind::kCell;
-  if (!many) operand.cell = group.cells[places.front()];
-  for (const std::uint32_t place : places) {
-    if (many) operand.cells.push_back(group.cells[place]);
-  }
+  if (!many) return Operand::of(group.cells[places.front()]);
+  Operand operand = Operand::of(Operand::Kind::kCells);
+  for (const std::uint32_t place : places) operand.cells.push_back(group.cells[place]);
   return operand;
 }
 
@@ -138,10 +118,7 @@ Operand References::evaluate_call(std::uint32_t id, Environment values) {
     place = place * draft_.model.sets[index(table.parameters[i])].members.size() + member.member.index;
   }
   if (table.values[place] == kNone32) return {};  // the table is incomplete, which has been reported
-  Operand operand;
-  operand.kind = Operand::Kind::kMember;
-  operand.member = {table.result, table.values[place]};
-  return operand;
+  return Operand::of(Member{table.result, table.values[place]});
 }
 
 std::string References::describe(const Operand& operand) const {

@@ -123,8 +123,7 @@ std::uint32_t References::compile_entity(const Entity& entity, const syntax::Ref
     case Entity::Kind::kFact:
     case Entity::Kind::kSatellite:
     case Entity::Kind::kStrategy:
-      operand.kind = Operand::Kind::kCell;
-      operand.cell = CellId{entity.id};
+      operand = Operand::of(CellId{entity.id});
       break;
     case Entity::Kind::kGroup:
       operand.kind = Operand::Kind::kGroup;
@@ -138,8 +137,7 @@ std::uint32_t References::compile_entity(const Entity& entity, const syntax::Ref
     case Entity::Kind::kCommand:
     case Entity::Kind::kRoute:
     case Entity::Kind::kRow:
-      operand.kind = Operand::Kind::kRow;
-      operand.row = RowId{entity.id};
+      operand = Operand::of(RowId{entity.id});
       relation = draft_.model[operand.row].relation;
       break;
     case Entity::Kind::kTable:
@@ -222,10 +220,7 @@ std::optional<Operand> References::member_of(std::uint32_t object, const syntax:
   const auto set = draft_.set_of.find(text(object));
   const auto member = set == draft_.set_of.end() ? std::nullopt : draft_.member(set->second, name.text);
   if (!member) return std::nullopt;
-  Operand operand;
-  operand.kind = Operand::Kind::kMember;
-  operand.member = *member;
-  return operand;
+  return Operand::of(*member);
 }
 
 /// Warns about a field that no row has, although the relation has rows: a rule that reads it has no instances, which is hardly meant.
@@ -247,10 +242,7 @@ std::uint32_t References::compile_member_field(std::uint32_t object, const synta
   }
   const FiniteSet& set = draft_.model.sets[index(group.dimensions.front())];
   if (const auto member = draft_.member(group.dimensions.front(), postfix.field.text)) {
-    Operand operand;
-    operand.kind = Operand::Kind::kCell;
-    operand.cell = group.cells[member->index];
-    return add_constant(std::move(operand), span);
+    return add_constant(Operand::of(group.cells[member->index]), span);
   }
   if (std::ranges::any_of(binders_, [&](const Binder& b) { return b.name.text == postfix.field.text; })) {
     draft_.diagnostics.report(Kind::kUnknownMember, span, {postfix.field.text, group.name})
@@ -340,20 +332,11 @@ std::uint32_t References::compile_argument(const syntax::Index& argument, SetId 
   const syntax::Ref& ref = tree_[argument.ref];
   const bool bound = std::any_of(binders_.begin(), binders_.end(), [&](const Binder& b) { return b.name.text == ref.base.text; });
   if (bound || !ref.postfixes.empty()) return compile(argument.ref);
-  if (const auto member = draft_.member(set, ref.base.text)) {
-    Operand operand;
-    operand.kind = Operand::Kind::kMember;
-    operand.member = *member;
-    return add_constant(std::move(operand), ref.span);
-  }
+  if (const auto member = draft_.member(set, ref.base.text)) return add_constant(Operand::of(*member), ref.span);
   if (draft_.names.find(ref.base.text) != nullptr) return compile(argument.ref);
   for (std::uint32_t other = 0; other < draft_.sets.size(); ++other) {
-    if (const auto member = draft_.member(SetId{other}, ref.base.text)) {
-      Operand operand;
-      operand.kind = Operand::Kind::kMember;
-      operand.member = *member;
-      return add_constant(std::move(operand), ref.span);  // a member of the wrong set is reported when it is evaluated
-    }
+    // A member of the wrong set is reported when it is evaluated.
+    if (const auto member = draft_.member(SetId{other}, ref.base.text)) return add_constant(Operand::of(*member), ref.span);
   }
   report_unknown_index(ref.base, set);
   return add_broken(ref.span);

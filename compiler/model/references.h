@@ -27,6 +27,28 @@ struct Operand {
   CondId condition{};
   std::uint32_t whole = 0;
   std::vector<CellId> cells;
+
+  [[nodiscard]] static Operand of(Kind kind) {
+    Operand operand;
+    operand.kind = kind;
+    return operand;
+  }
+  [[nodiscard]] static Operand of(Member member, CellId cell = CellId::kNone) {
+    Operand operand = of(Kind::kMember);
+    operand.member = member;
+    operand.cell = cell;
+    return operand;
+  }
+  [[nodiscard]] static Operand of(CellId cell) {
+    Operand operand = of(Kind::kCell);
+    operand.cell = cell;
+    return operand;
+  }
+  [[nodiscard]] static Operand of(RowId row) {
+    Operand operand = of(Kind::kRow);
+    operand.row = row;
+    return operand;
+  }
 };
 
 using Environment = std::span<const Operand>;
