@@ -19,9 +19,9 @@ void DriveTrain::drive(mts::Motion wanted, double dt_s) {
   double speed = static_cast<double>(wanted.speed_m_s), turn = static_cast<double>(wanted.turn_rad_s);
   if (!std::isfinite(speed) || !std::isfinite(turn)) speed = turn = 0.0;
   turn = std::clamp(turn, -limits_.turn_rad_s, limits_.turn_rad_s);
-  const double difference = 0.5 * turn * limits_.wheel_base_m;
+  const double difference = std::clamp(0.5 * turn * limits_.wheel_base_m, -limits_.speed_m_s, limits_.speed_m_s);
   // If one wheel could not reach its speed, the path would bend otherwise than asked. So the speed is lowered until the turn can be kept.
-  const double room = std::max(limits_.speed_m_s - std::abs(difference), 0.0);
+  const double room = limits_.speed_m_s - std::abs(difference);
   speed = std::clamp(speed, -room, room);
   const double step = limits_.acceleration_m_s2 * dt_s;
   left_asked_m_s_ = towards(left_asked_m_s_, speed - difference, step);

@@ -76,6 +76,22 @@ TEST(DriveTrain, KeepsToItsLimitsAndPutsTheTurnFirst) {
   EXPECT_DOUBLE_EQ(wheels.wheel_speed_m_s(), 0.0);
 }
 
+TEST(DriveTrain, TurnsNoFasterThanItsWheelsCan) {
+  const DriveLimits limits{.speed_m_s = 0.05, .turn_rad_s = 10.0};
+  const double fastest_rad_s = 2.0 * limits.speed_m_s / limits.wheel_base_m;
+  for (const float way : {1.0f, -1.0f}) {
+    DriveTrain wheels(limits, 1);
+    for (int i = 0; i < 200; ++i) wheels.drive({0.05f, 10.0f * way}, 0.01);
+    EXPECT_NEAR(wheels.wheel_turn_rad_s(), static_cast<double>(way) * fastest_rad_s, 1e-9);
+    EXPECT_NEAR(wheels.wheel_speed_m_s(), 0.0, 1e-9);
+  }
+}
+
+TEST(DriveLimits, ALargerRobotTurnsSlower) {
+  EXPECT_DOUBLE_EQ(limits_of(robot_of(1.0f)).turn_rad_s, DriveLimits{}.turn_rad_s);
+  EXPECT_DOUBLE_EQ(limits_of(robot_of(4.0f)).turn_rad_s, 0.5 * DriveLimits{}.turn_rad_s);
+}
+
 TEST(StopLine, MetAslantIsKnownByLessOfItAndAPaintedLineIsStillNone) {
   const auto periods = [](bool aslant) {
     StopLine line(kRobot);
