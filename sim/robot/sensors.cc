@@ -116,7 +116,7 @@ void Sensors::sample_range(std::int64_t now_us, const Pose& pose, const Arena& a
     const bool seen = nearest < out_of_range_m;
     float spoilt = value;
     for (Element* element : {&range_elements_[i], &range_whole_}) {
-      const bool shifts = element->fault == Fault::kOffset || element->fault == Fault::kDrift;
+      const bool shifts = element->fault == Fault::kNoisy || element->fault == Fault::kOffset || element->fault == Fault::kDrift;
       if (seen || !shifts) spoilt = spoil(*element, spoilt, noise, now_us);   // without an echo there is no distance that could be off
       spoilt = false_echo(*element, spoilt);
     }

@@ -1,6 +1,7 @@
 // What goes wrong with sensors and wheels, as scenarios say it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/robot/sensors.h"
@@ -80,6 +81,24 @@ TEST(SensorFaults, SpikesAreEchoesOfNothingNearerThanWhatIsThere) {
   }
   EXPECT_GT(spikes, 150);
   EXPECT_LT(spikes, 250);
+}
+
+TEST(SensorFaults, ANoisyRangeFinderSeesNothingWhereNothingIs) {
+  Standing robot;
+  SensorBuilds noisy = Standing::exact();
+  noisy.range.noise = 0.01;
+  robot.sensors = Sensors(noisy, 1);
+  robot.sensors.set_fault(SensorId::kRange, 2, Fault::kNoisy, 20.0);
+  float least_m = 1.0f, most_m = 0.0f;
+  for (int i = 0; i < 100; ++i) {
+    const float wall_m = robot.after(0.05).range_m[2];
+    least_m = std::min(least_m, wall_m);
+    most_m = std::max(most_m, wall_m);
+  }
+  EXPECT_GT(most_m - least_m, 0.3f) << "the wall, whose distance has twenty times the noise";
+  robot.arena.put({faulty_floor().high.x_m + 100.0, 0.0, 0.0});
+  static_cast<void>(robot.after(0.1));
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(robot.after(0.05).range_m[2], mts::out_of_range_m(kRobot));
 }
 
 TEST(SensorFaults, SteelTurnsTheCompassNearItAndNowhereElse) {
