@@ -74,7 +74,6 @@ class Similarity {
     }
     for (float Body::* speed_m_s : {&Body::top_speed_m_s, &Body::crawl_m_s}) body.*speed_m_s *= length / time;
     for (float Body::* time_s : {&Body::range_latency_s, &Body::longest_silence_s}) body.*time_s *= time;
-    body.top_turn_rad_s /= time;
     return body;
   }
 

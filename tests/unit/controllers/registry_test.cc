@@ -70,8 +70,7 @@ TEST(Body, TheChapterOnControllersSaysItsDefaults) {
   const Body body;
   const struct { const char* name; float value; } rows[] = {
       {"radius_m", body.radius_m}, {"wheel_base_m", body.wheel_base_m}, {"top_speed_m_s", body.top_speed_m_s},
-      {"top_acceleration_m_s2", body.top_acceleration_m_s2}, {"top_turn_rad_s", body.top_turn_rad_s},
-      {"range_latency_s", body.range_latency_s}, {"crawl_m_s", body.crawl_m_s}, {"longest_silence_s", body.longest_silence_s},
+      {"top_acceleration_m_s2", body.top_acceleration_m_s2}, {"range_latency_s", body.range_latency_s}, {"crawl_m_s", body.crawl_m_s}, {"longest_silence_s", body.longest_silence_s},
       {"line_ahead_m", body.line_ahead_m}, {"line_span_m", body.line_span_m}, {"paint_width_m", body.paint_width_m},
       {"stop_line_width_m", body.stop_line_width_m}, {"road_width_m", body.road_width_m}, {"crossing_m", body.crossing_m},
       {"hall_door_m", body.hall_door_m}};

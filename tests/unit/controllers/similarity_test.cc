@@ -37,7 +37,7 @@ TEST(Similarity, BrakesAsItDoesAndTurnsSlower) {
   EXPECT_EQ(robot.road_width_m, 2.4f);
   EXPECT_EQ(robot.top_speed_m_s, 1.2f);
   EXPECT_EQ(robot.top_acceleration_m_s2, Body{}.top_acceleration_m_s2);
-  EXPECT_EQ(robot.top_turn_rad_s, 1.5f);
+  EXPECT_EQ(kAs.out(Motion{0.3f, 3.0f}).turn_rad_s, 1.5f);
   const Body back = kAs.in(robot);
   EXPECT_EQ(back.size, 1.0f);
   EXPECT_EQ(back.line_ahead_m, Body{}.line_ahead_m);
