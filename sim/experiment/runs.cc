@@ -172,9 +172,8 @@ Row Prepared::drive(std::uint32_t scenario, const Method& method, std::size_t se
   row.what = what.what;
   row.kinds = what.kinds;
   const Extent shortest = extent_of(floor_, shortest_way(floor_, route_.crossings.front(), goal, what.bans).value());
-  const double before_m = kStartBefore + start_.arm->stop_m;
-  row.shortest_m = (shortest.length_m + before_m) * size;
-  row.shortest_s = (shortest.time_s + before_m / kOtherSpeed) * static_cast<double>(as.of("s"));
+  row.shortest_m = (shortest.length_m + kStartBefore + start_.arm->stop_m) * size;
+  row.shortest_s = (shortest.time_s + time_for(floor_[start_.arm->road], kStartBefore, start_.arm->stop_m)) * static_cast<double>(as.of("s"));
   return row;
 }
 

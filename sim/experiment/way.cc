@@ -46,6 +46,8 @@ std::optional<RoutePlan> shortest_way(const Labyrinth& labyrinth, CrossingId fro
   return way;
 }
 
+double time_for(const Road& road, double road_m, double crossing_m) { return road_m / (road.method == "mark" ? kMarkSpeed : kOtherSpeed) + crossing_m / kCrossingSpeed; }
+
 Extent extent_of(const Labyrinth& labyrinth, const RoutePlan& way) {
   Extent extent;
   for (std::size_t i = 0; i < way.exits.size(); ++i) {
@@ -57,7 +59,7 @@ Extent extent_of(const Labyrinth& labyrinth, const RoutePlan& way) {
     const bool last = i + 1 == way.exits.size();
     const double crossing_m = arm.stop_m + (last ? 0.0 : arrives.stop_m);
     extent.length_m += road_m + crossing_m;
-    extent.time_s += road_m / (road.method == "mark" ? kMarkSpeed : kOtherSpeed) + crossing_m / kCrossingSpeed;
+    extent.time_s += time_for(road, road_m, crossing_m);
   }
   return extent;
 }

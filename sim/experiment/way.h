@@ -26,6 +26,9 @@ struct Bans {
 /// A shortest way by length, from landmark to landmark (Dijkstra); nothing if there is none. Of equally short ones, always the same.
 [[nodiscard]] std::optional<RoutePlan> shortest_way(const Labyrinth& labyrinth, CrossingId from, CrossingId to, const Bans& bans = {});
 
+/// The time, in s, for `road_m` along a road and `crossing_m` through crossings at its ends, at the controllers' speeds without a halt.
+[[nodiscard]] double time_for(const Road& road, double road_m, double crossing_m);
+
 struct Extent { double length_m = 0.0, time_s = 0.0; };
 /// The length of a way along the middle of its roads, from the middle of its first crossing to the goal's stop line, and the time that
 /// it takes at the controllers' speeds without a halt. A robot that cuts bends may drive a few per cent less.

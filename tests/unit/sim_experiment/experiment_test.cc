@@ -140,6 +140,32 @@ TEST_F(ExperimentTest, the_shortest_way_is_no_longer_than_what_anyone_who_keeps_
   EXPECT_GT(row.time_s, 0.9 * row.shortest_s);
 }
 
+TEST(WayTest, a_painted_line_is_driven_faster_than_other_roads_and_a_crossing_slower) {
+  Road road;
+  road.method = "mark";
+  EXPECT_DOUBLE_EQ(time_for(road, 1.2, 0.5), 1.2 / kMarkSpeed + 0.5 / kCrossingSpeed);
+  road.method = "dist";
+  EXPECT_DOUBLE_EQ(time_for(road, 1.2, 0.5), 1.2 / kOtherSpeed + 0.5 / kCrossingSpeed);
+}
+
+TEST_F(ExperimentTest, the_shortest_time_begins_where_the_robot_starts) {
+  std::set<std::string> methods;
+  for (const Group& group : groups_of(setup_)) {
+    if (group.route > 0) continue;
+    const Ground ground = ground_of_number(setup_, group.labyrinth, files_);
+    Prepared prepared(setup_, group, ground, files_);
+    const Row row = prepared.drive(group.scenarios.front(), built_in_methods().front());
+    const Scenario scenario = Town(prepared.mission(), setup_.library, files_).scenario(prepared.case_of(group.scenarios.front()).scenario);
+    const Whereabouts start = locate(ground.floor, {scenario.start.x_m, scenario.start.y_m});
+    const Road& road = ground.floor[start.road];
+    methods.insert(road.method);
+    const Extent way = extent_of(ground.floor, prepared.route());
+    const double stop_m = row.shortest_m - way.length_m - kStartBefore;
+    EXPECT_NEAR(row.shortest_s, way.time_s + time_for(road, kStartBefore, stop_m), 1e-6) << road.name;
+  }
+  EXPECT_GT(methods.size(), 1u);
+}
+
 TEST(RowTest, comes_back_as_it_was_written) {
   Row row;
   row.scenario = 17;
