@@ -24,6 +24,8 @@ Ending ending_of(const Summary& summary) {
   return ending;
 }
 
+bool says_why(const Ending& ending) { return ending.outcome != "arrived" && ending.outcome != "time_up" && !ending.reports.empty(); }
+
 void Tally::add(const Ending& ending, double time, double length) {
   ++runs;
   collided += ending.collisions > 0 ? 1 : 0;
@@ -33,7 +35,7 @@ void Tally::add(const Ending& ending, double time, double length) {
     ++arrived;
     times.push_back(time);
     lengths.push_back(length);
-  } else if (!ending.reports.empty()) {
+  } else if (batch::says_why(ending)) {
     ++says_why;
   } else {
     ++silent;

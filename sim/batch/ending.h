@@ -31,12 +31,14 @@ struct Ending {
   std::uint32_t missed = 0;               ///< events of the scenario that never happened
 };
 [[nodiscard]] Ending ending_of(const Summary& summary);
+/// Whether it stands, has not arrived, and reports why. A robot that still drove when the time was up says nothing by its reports.
+[[nodiscard]] bool says_why(const Ending& ending);
 
 /// Counts of endings.
 struct Tally {
   std::size_t runs = 0, arrived = 0;
-  std::size_t says_why = 0;                ///< it stands and has reported why
-  std::size_t silent = 0;                  ///< it stands, drives on for ever or never started, and reports nothing
+  std::size_t says_why = 0;                ///< see batch::says_why
+  std::size_t silent = 0;                  ///< all others that did not arrive
   std::size_t collided = 0;                ///< runs with a collision
   std::size_t broke_bans = 0;              ///< runs in which a closed road was taken or an unsafe crossing entered
   std::size_t lost_unaware = 0;

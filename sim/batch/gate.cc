@@ -18,8 +18,8 @@ struct Counted {
   bool (*is)(const Run& run);
 };
 constexpr std::array kCounted{
-    Counted{"says_why", [](const Run& run) { return run.outcome != kOutcomes[0] && !run.reports.empty(); }},
-    Counted{"silent", [](const Run& run) { return run.outcome != kOutcomes[0] && run.reports.empty(); }},
+    Counted{"says_why", [](const Run& run) { return says_why(run); }},
+    Counted{"silent", [](const Run& run) { return run.outcome != kOutcomes[0] && !says_why(run); }},
     Counted{"collisions", [](const Run& run) { return run.collisions > 0; }},
     Counted{"bans_broken", [](const Run& run) { return run.bans_broken > 0; }},
     Counted{"lost_unaware", [](const Run& run) { return run.lost_unaware; }},

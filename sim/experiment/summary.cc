@@ -29,7 +29,7 @@ std::string kinds_of(const std::vector<Row>& rows, const Row& way) {
     Count& count = kinds[row.kinds];
     ++count.runs;
     if (row.outcome == "arrived") ++count.arrived;
-    else ++count.else_[row.reports.empty() ? row.outcome : row.reports];
+    else ++count.else_[batch::says_why(row) ? row.reports : row.outcome];
   }
   std::string out = "| alone | runs | arrives (95 % interval) | else |\n|---|---:|---:|---|\n";
   for (const auto& [kind, count] : kinds) {

@@ -311,7 +311,7 @@ TEST_F(ExperimentTest, results_that_somebody_writes_are_refused) {
 }
 
 TEST(SummaryTest, counts_runs_by_class_and_method) {
-  std::vector<Row> rows(4);
+  std::vector<Row> rows(5);
   for (Row& row : rows) row.shortest_s = row.shortest_m = row.time_s = row.length_m = 10.0;
   rows[0].outcome = rows[1].outcome = "arrived";
   rows[1].time_s = 30.0;
@@ -319,11 +319,13 @@ TEST(SummaryTest, counts_runs_by_class_and_method) {
   rows[2].reports = "Help.lost";
   rows[3].outcome = "stuck";
   rows[3].collisions = 2;
+  rows[4].outcome = "time_up";
+  rows[4].reports = "Help.lost";
   const Share share = summarise(rows).front();
-  EXPECT_EQ(share.runs, 4u);
+  EXPECT_EQ(share.runs, 5u);
   EXPECT_EQ(share.arrived, 2u);
   EXPECT_EQ(share.says_why, 1u);
-  EXPECT_EQ(share.silent, 1u);
+  EXPECT_EQ(share.silent, 2u) << "one stands and says nothing, one reports something and drives on";
   EXPECT_EQ(share.collided, 1u);
   EXPECT_EQ(share.times, (std::vector<double>{1.0, 3.0}));
 }
