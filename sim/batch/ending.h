@@ -13,7 +13,7 @@
 namespace kb::sim::batch {
 
 /// In the order of Summary::Outcome.
-inline constexpr std::array<std::string_view, 7> kOutcomes{"arrived", "astray", "aborted", "stopped", "stuck", "time_up", "never_started"};
+inline constexpr std::array<std::string_view, 8> kOutcomes{"arrived", "astray", "aborted", "given_up", "stopped", "stuck", "time_up", "never_started"};
 
 inline constexpr double kNothingNear = -1.0;   ///< no obstacle stood anywhere
 

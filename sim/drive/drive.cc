@@ -99,6 +99,22 @@ void Drive::follow_untold_mission() {
   if (abort_pressed_ || (there && left_goal_ && stands_s_ >= kStandsAtGoal)) untold_ = nullptr;
 }
 
+/// Whether a mission that ends in this tick has ended as one does that has come to its goal: on its last leg, where the landmark is seen or,
+/// if its sign cannot be read, the end of the road (std.recover). If rules end it anywhere else, they give it up.
+bool Drive::claims_arrival() const {
+  const auto sees = [&](program::CellId fact) { return fact != program::CellId::kNone && driver_.mind().seen(fact); };
+  return last_leg_ == nullptr || (last_leg_->last && (sees(last_leg_->sight) || sees(knowledge_.find("Due"))));
+}
+
+/// How the mission that ends in this tick has ended. Of a helm it is known only that it set `Abort` itself, as it does for an order that is
+/// cancelled.
+Summary::Outcome Drive::mission_end() const {
+  using Outcome = Summary::Outcome;
+  if (abort_pressed_ || (options_.helm != nullptr && options_.helm->seen(knowledge_.find("Abort")))) return Outcome::kAborted;
+  if (options_.helm == nullptr && !claims_arrival()) return Outcome::kGivenUp;
+  return is_there(last_landmark_) ? Outcome::kArrived : Outcome::kAstray;
+}
+
 void Drive::watch_mission(const Judge::Belief& belief) {
   follow_untold_mission();
   const bool on = on_mission();
@@ -107,6 +123,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
     length_at_start_m_ = judge_.summary.length_m;
     ended_ = abort_pressed_ = false;
   }
+  if (belief.leg != nullptr) last_leg_ = belief.leg;
   if (options_.helm != nullptr && !options_.helm->goal().empty()) last_landmark_ = options_.helm->goal();
   else if (belief.leg != nullptr) last_landmark_ = belief.leg->to;
   if (!on && mission_) {
@@ -115,9 +132,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
     judge_.summary.landmark = last_landmark_;
     judge_.summary.length_m -= length_at_start_m_;
     length_at_start_m_ = 0.0;
-    // A helm's program sets `Abort` itself if an order is cancelled.
-    const bool given_up = abort_pressed_ || (options_.helm != nullptr && options_.helm->seen(knowledge_.find("Abort")));
-    judge_.summary.outcome = given_up ? Summary::Outcome::kAborted : is_there(last_landmark_) ? Summary::Outcome::kArrived : Summary::Outcome::kAstray;
+    judge_.summary.outcome = mission_end();
   }
   mission_ = on;
   stands_s_ = std::abs(wheels_.wheel_speed_m_s()) < kStandsBelow ? stands_s_ + static_cast<double>(options_.dt_us) / 1e6 : 0.0;

@@ -47,6 +47,8 @@ class Drive {
   [[nodiscard]] Judge::Belief belief() const;
   void watch_mission(const Judge::Belief& belief);
   [[nodiscard]] bool on_mission() const;
+  [[nodiscard]] bool claims_arrival() const;
+  [[nodiscard]] Summary::Outcome mission_end() const;
   [[nodiscard]] bool is_there(const std::string& landmark) const;
   void follow_untold_mission();
   [[nodiscard]] std::vector<std::string> reports() const;
@@ -103,6 +105,7 @@ class Drive {
   bool mission_ = false, ended_ = false;      // a route is high; one was
   const Mission* untold_ = nullptr;           // for a helm that does not report it: see note [a mission that nobody tells]
   bool left_goal_ = false;
+  const Leg* last_leg_ = nullptr;             // the one that is current, or was last
   bool abort_pressed_ = false, over_ = false;
   std::string last_landmark_;
   double began_s_ = 0.0, ended_s_ = 0.0, stands_s_ = 0.0, turned_at_s_ = 0.0, length_at_start_m_ = 0.0;

@@ -68,6 +68,7 @@ std::string describe(const Summary& summary) {
     case Outcome::kArrived: return "arrived at " + summary.landmark;
     case Outcome::kAstray: return "believes to be at " + summary.landmark + ", and is not";
     case Outcome::kAborted: return "aborted";
+    case Outcome::kGivenUp: return "gave up on the way to " + summary.landmark;
     case Outcome::kStopped: return "stopped: " + reports;
     case Outcome::kStuck: return "stands without saying why" + (summary.running.empty() ? "" : ", while `" + summary.running + "` runs");
     case Outcome::kTimeUp: return reports.empty() ? "still driving when the time was up" : "still driving when the time was up: " + reports;

@@ -32,12 +32,13 @@ struct Summary {
     kArrived,         ///< the mission ended, at the landmark where it had to
     kAstray,          ///< the mission ended, and the robot is somewhere else
     kAborted,
+    kGivenUp,         ///< a rule ended the mission before it had come to its last landmark
     kStopped,         ///< it stands and has reported why
     kStuck,           ///< it stands and has not reported why
     kTimeUp,          ///< time was up while it still drove
     kNeverStarted,
   } outcome = Outcome::kNeverStarted;
-  std::string landmark;                      ///< kArrived, kAstray: the last one of the route
+  std::string landmark;                      ///< kArrived, kAstray: the last one of the route; kGivenUp: the one it was on the way to
   std::vector<std::string> reports;          ///< `Help.lost`: reported when it ended
   std::vector<std::string> outputs;          ///< the satellites declared `output` that were high when it ended; none of a driver of another program
   std::string running;                       ///< the strategy that drove when it ended; empty: none

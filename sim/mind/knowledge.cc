@@ -209,7 +209,10 @@ void find_plans(const model::Model& model, Knowledge& out) {
     // Legs of a route are named `Route1.0:...`, those of its detours `Route1.d0.0:...` and the like: a letter follows the point.
     const std::size_t dot = row.name.find('.');
     const bool detour = dot != std::string::npos && dot + 1 < row.name.size() && (row.name[dot + 1] < '0' || row.name[dot + 1] > '9');
-    out.legs.push_back({order[model::index(row.cell)], std::string(row.name), landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour});
+    const model::Row* to = model.row_in(row, "to");
+    const bool seen = to != nullptr && to->cell != model::CellId::kNone;
+    out.legs.push_back({order[model::index(row.cell)], std::string(row.name), landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour,
+                        model.row_in(row, "ends") != nullptr, seen ? order[model::index(to->cell)] : program::CellId::kNone});
     if (!detour) goals[row.name.substr(0, dot)] = out.legs.back().to;
   }
   for (const model::RowId id : model.rows_of("Route")) {

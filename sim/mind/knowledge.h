@@ -57,6 +57,8 @@ struct Leg {
   program::CellId cell = program::CellId::kNone;
   std::string name, from, to;         ///< landmarks; `from` is empty for the first of a route
   bool detour = false;                ///< it belongs to a detour or a retreat
+  bool last = false;                  ///< it ends its route
+  program::CellId sight = program::CellId::kNone;   ///< the fact of its landmark `to`
 };
 
 /// The mission that a command starts: a route, which ends at a landmark.
