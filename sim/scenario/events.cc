@@ -85,8 +85,13 @@ bool EventReader::read_trigger() {
   for (const Known& known : kKnown) {
     if (when->has(known.word)) said.push_back(&known);
   }
+  const auto is_set = [&](const Known* known) { return when->is_set(known->word); };
+  if (said.size() > 1 && std::any_of(said.begin(), said.end(), is_set)) {   // a setting replaces what the file waits for, and where
+    std::erase_if(said, [&](const Known* known) { return !is_set(known); });
+    for (const char* where : {"metres", "going"}) static_cast<void>(when->is_set(where) || when->has(where));
+  }
   if (said.size() != 1) {
-    table_.diagnostics().report(Kind::kSimTrigger, when->span(), {said.empty() ? "nothing" : "more than one thing"});
+    table_.diagnostics().report(Kind::kSimTrigger, said.empty() ? when->span() : when->span(said[1]->word), {said.empty() ? "nothing" : "more than one thing"});
     return false;
   }
   event_.when.delay_s = when->number("delay", {0.0, kLong}).value_or(0.0);

@@ -128,6 +128,11 @@ const toml::node* TomlTable::get(std::string_view key) {
 
 bool TomlTable::has(std::string_view key) { return get(key) != nullptr; }
 
+bool TomlTable::is_set(std::string_view key) const {
+  const toml::node* node = table_->get(key);
+  return node != nullptr && places_->is_set(node->source());
+}
+
 source::Span TomlTable::span(std::string_view key) const {
   const toml::node* node = key.empty() ? nullptr : table_->get(key);
   return places_->span(node != nullptr ? node->source() : table_->source());

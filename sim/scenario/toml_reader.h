@@ -24,6 +24,8 @@ class TomlPlaces {
   TomlPlaces(source::FileId file, const source::Sources& sources) : file_(file), sources_(sources) {}
   /// A span in the file that the region names, as set by parse_scenario; in `file` if it names none.
   [[nodiscard]] source::Span span(const toml::source_region& region) const;
+  /// Whether it was put in by a setting, and is not written in `file`.
+  [[nodiscard]] bool is_set(const toml::source_region& region) const { return span(region).file != file_; }
 
  private:
   source::FileId file_;
@@ -42,6 +44,8 @@ class TomlTable {
 
   struct Range { double low, high; };
   [[nodiscard]] bool has(std::string_view key);
+  /// Whether it has the key from a setting of the command line.
+  [[nodiscard]] bool is_set(std::string_view key) const;
   /// Nothing if the key is not there, or was reported.
   [[nodiscard]] std::optional<double> number(std::string_view key, Range range);
   [[nodiscard]] std::optional<std::string> text(std::string_view key);
