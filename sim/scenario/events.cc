@@ -116,7 +116,7 @@ bool EventReader::when_road(TomlTable& when) {
   if (!end) return false;
   const auto& road = names_.labyrinth[end->arm->road];
   const double long_m = road.ends_m - road.begins_m;
-  const double metres = when.number("metres", {0.0, long_m}).value_or(0.5 * long_m);
+  const double metres = when.number("metres", along(road)).value_or(0.5 * long_m);
   event_.when.along_m = end->arm->forward ? metres : long_m - metres;
   event_.when.road = end->arm->road;
   if (!when.has("going")) return true;
@@ -186,8 +186,8 @@ bool EventReader::do_wear() {
   const Road& road = names_.labyrinth[event_.action.road];
   const auto end = names_.end(table_, "wear");
   const double long_m = road.ends_m - road.begins_m;
-  double from = table_.number("from", {0.0, long_m}).value_or(0.0);
-  double to = table_.number("to", {from, long_m}).value_or(long_m);
+  double from = table_.number("from", along(road)).value_or(0.0);
+  double to = table_.number("to", along(road, from)).value_or(long_m);
   if (!end->arm->forward) {
     std::swap(from, to);
     from = long_m - from;

@@ -84,12 +84,11 @@ std::optional<Pose> Names::place(TomlTable& table) const {
     const auto found = end(table, "road");
     if (!found) return std::nullopt;
     const Road& road = labyrinth[found->arm->road];
-    const double long_m = road.ends_m - road.begins_m;
     if (!table.has("metres")) {
       table.missing("metres");
       return std::nullopt;
     }
-    const auto metres = table.number("metres", {0.0, long_m});
+    const auto metres = table.number("metres", along(road));
     const double aside_m = table.number("aside", {-2.0 * labyrinth.size, 2.0 * labyrinth.size}).value_or(0.0);
     if (!metres) return std::nullopt;
     Pose pose = labyrinth.place(*found, *metres);

@@ -32,6 +32,11 @@ struct Names {
   [[nodiscard]] std::optional<program::CellId> cell(TomlTable& table, std::string_view key, program::CellKind kind) const;
 };
 
+/// Where something on a road can be: behind the stop line by one of whose sides the road is named, and behind `from_m`.
+[[nodiscard]] inline TomlTable::Range along(const Road& road, double from_m = 0.0) {
+  return {from_m, road.ends_m - road.begins_m, "metres of the floor behind the stop line,"};
+}
+
 /// The landmark where a route begins; null if it has none.
 [[nodiscard]] const model::Row* begin_of(const model::Model& model, const model::Row& route);
 

@@ -145,7 +145,7 @@ void TomlTable::wrong_type(std::string_view key, const toml::node& node, std::st
 bool TomlTable::in_range(std::string_view key, const toml::node& node, double value, Range range) {
   if (value >= range.low && value <= range.high) return true;
   diagnostics_->report(Kind::kSimRange, places_->span(node.source()),
-                       {key, fmt::format("{:g}", value), fmt::format("a number from {:g} to {:g}", range.low, range.high)});
+                       {key, fmt::format("{:g}", value), fmt::format("a number from {:g} to {:g}{}{}", range.low, range.high, range.of.empty() ? "" : ", ", range.of)});
   return false;
 }
 
@@ -212,7 +212,10 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   const toml::node* node = get(key);
   if (node == nullptr) return tables;
   const toml::array* list = node->as_array();
-  if (list == nullptr) wrong_type(key, *node, "a list of tables");
+  if (list == nullptr) {
+    const std::string within = what_.starts_with('`') ? what_.substr(1, what_.size() - 2) + "." : "";
+    wrong_type(key, *node, fmt::format("a list of tables, `[[{}{}]]`,", within, key));
+  }
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     if (const toml::table* value = (*list)[i].as_table()) tables.emplace_back(*value, fmt::format("`{}`", key), *places_, *diagnostics_);
     else wrong_type(key, (*list)[i], "a table");

@@ -42,7 +42,8 @@ class TomlTable {
   TomlTable(const toml::table& table, std::string what, const TomlPlaces& places, diagnostics::Diagnostics& diagnostics)
       : table_(&table), what_(std::move(what)), places_(&places), diagnostics_(&diagnostics) {}
 
-  struct Range { double low, high; };
+  /// `of` says what the numbers are where the key does not: `metres of the floor behind the stop line,`.
+  struct Range { double low, high; std::string_view of{}; };
   [[nodiscard]] bool has(std::string_view key);
   /// Whether it has the key from a setting of the command line.
   [[nodiscard]] bool is_set(std::string_view key) const;
