@@ -16,13 +16,10 @@ constexpr double kEarly = 0.3;            // behind a stop line: a robot there i
 constexpr double kBarrier = 0.2;          // its radius
 constexpr double kSignRead = 0.5;         // before a stop line: nearer to it the sign there may already be read
 
-/// How far before the first stop line the robot starts, on a road of that length.
-double start_before_m(double road_m) { return road_m - std::max(0.1, road_m - kStartBefore); }
-
 /// Draws what goes wrong and writes it into the case.
 class Drawer {
  public:
-  Drawer(const CaseGround& ground, Case& out, Random& random) 
+  Drawer(const CaseGround& ground, Case& out, Random& random)
       : labyrinth_(ground.labyrinth), as_(ground.size), route_(ground.route), start_(ground.start), out_(out), random_(random) {}
 
   void draw(Class what) {
@@ -110,7 +107,7 @@ class Drawer {
   void barrier(std::size_t leg_of, std::string_view when, std::string_view time) {
     const double at_m = 0.5 * length_m(leg_of), room_m = kBarrier + static_cast<double>(kRobotRadius) + 0.1;
     ++things_;
-    if (route_.exits[leg_of]->road == start_.arm->road && std::abs(at_m - start_before_m(length_m(leg_of))) < room_m) return;
+    if (route_.exits[leg_of]->road == start_.arm->road && std::abs(at_m - kStartBefore) < room_m) return;
     event(when, fmt::format("obstacle = \"barrier {}\"\nroad = \"{}\"\nmetres = {:.2f}\nradius = {}\n{}", things_, exit(leg_of), m(at_m), m(kBarrier), time));
   }
   void unsafe() {
@@ -145,8 +142,7 @@ class Drawer {
     kind("walker");
   }
   /// A trigger somewhere on the route: along a road, or in a crossing. Not where the robot may have arrived: there the command would start
-  /// another
-/// mission.
+  /// another mission.
   [[nodiscard]] std::string anywhere() {
     const std::size_t leg_of = leg();
     if (random_.chance(0.3f)) return fmt::format("crossing = \"{}\"", labyrinth_[route_.crossings[leg_of]].name);
@@ -211,7 +207,7 @@ std::string start_of(const CaseGround& ground) {
   const double road_m = road.ends_m - road.begins_m;
   const bool at_end = !ground.start.arm->forward;
   return fmt::format("[start]\nroad = \"{}.{}\"\nmetres = {:.2f}\n", ground.labyrinth[at_end ? road.from : road.to].name, at_end ? road.exit : road.approach,
-                     (road_m - start_before_m(road_m)) * static_cast<double>(ground.size));
+                     (road_m - kStartBefore) * static_cast<double>(ground.size));
 }
 
 }  // namespace

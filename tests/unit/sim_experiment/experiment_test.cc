@@ -94,7 +94,6 @@ TEST_F(ExperimentTest, each_scenario_is_in_one_group_and_its_case_can_be_read) {
   EXPECT_EQ(seen.size(), setup_.scenarios);
 }
 
-// Scenario 341 of seed 7 closes, twice, the road on which the robot starts, in whose middle it stands.
 TEST(Streams, no_two_labyrinths_routes_and_cases_share_one) {
   std::set<std::uint64_t> streams;
   std::size_t drawn = 0;
@@ -113,6 +112,7 @@ TEST(Streams, no_two_labyrinths_routes_and_cases_share_one) {
   EXPECT_EQ(stream_of(Drawn::kRoute, route_number(255, 4095)), (3u << 20) - 1);   // as experiments were drawn that are recorded
 }
 
+// Scenario 341 of seed 7 closes, twice, the road on which the robot starts, in whose middle it stands.
 TEST_F(ExperimentTest, where_the_robot_stands_a_road_is_closed_without_a_barrier) {
   setup_.seed = 7;
   setup_.scenarios = 1'000;
