@@ -47,10 +47,12 @@ class Drawer {
   }
   void draw_place() {
     const float dice = random_.unit();
-    if (dice < 0.25f) worn(leg());
+    const std::vector<std::size_t> marked = marked_legs();
+    const bool wears = !marked.empty();
+    if (dice < 0.25f && wears) worn(marked[below(marked.size())]);
     else if (dice < 0.45f) tag(leg(), false);
     else if (dice < 0.65f) tag(leg(), true);
-    else if (dice < 0.80f) worn_and_unreadable();
+    else if (dice < 0.80f && wears) worn_and_unreadable(marked[below(marked.size())]);
     else kidnap();
   }
 
@@ -61,6 +63,14 @@ class Drawer {
   [[nodiscard]] double m(double length_m) const { return length_m * static_cast<double>(as_.of("m")); }
   [[nodiscard]] double s(double time_s) const { return time_s * static_cast<double>(as_.of("s")); }
   [[nodiscard]] std::size_t leg() { return below(route_.exits.size()); }
+  /// The legs along painted lines: no other road has a marking to wear off.
+  [[nodiscard]] std::vector<std::size_t> marked_legs() const {
+    std::vector<std::size_t> marked;
+    for (std::size_t i = 0; i < route_.exits.size(); ++i) {
+      if (road(i).method == "mark") marked.push_back(i);
+    }
+    return marked;
+  }
   [[nodiscard]] const Road& road(std::size_t leg) const { return labyrinth_[route_.exits[leg]->road]; }
   /// Rounded down to whole centimetres, as it is written.
   [[nodiscard]] double length_m(std::size_t leg) const { return std::floor((road(leg).ends_m - road(leg).begins_m) * 100.0) / 100.0; }
@@ -175,8 +185,7 @@ class Drawer {
     event("time = 0", fmt::format("tag = \"{}\"\nreads = \"{}\"", approach(leg_of), wrong ? name : "nothing"));
     kind(wrong ? "tag_wrong" : "tag_unreadable");
   }
-  void worn_and_unreadable() {
-    const std::size_t leg_of = leg();
+  void worn_and_unreadable(std::size_t leg_of) {
     event("time = 0", fmt::format("wear = \"{}\"\nfrom = 0.0\nto = {:.2f}", exit(leg_of), m(length_m(leg_of))));
     tag(leg_of, random_.chance(0.3f));
     kind("worn");

@@ -75,8 +75,20 @@ TEST_F(ExperimentTest, every_fourth_labyrinth_is_a_window_of_the_maze_between_wa
   for (const auto& road : sketch.roads) EXPECT_EQ(road.method, "dist");
 }
 
+/// How many roads the scenario wears; all of them have a marking.
+std::size_t worn_roads(const Labyrinth& labyrinth, const Scenario& scenario) {
+  std::size_t worn = 0;
+  for (const Event& event : scenario.events) {
+    if (event.action.kind != Action::Kind::kWear) continue;
+    EXPECT_EQ(labyrinth[event.action.road].method, "mark") << event.text;
+    ++worn;
+  }
+  return worn;
+}
+
 TEST_F(ExperimentTest, each_scenario_is_in_one_group_and_its_case_can_be_read) {
   std::set<std::uint32_t> seen;
+  std::size_t worn = 0;
   Grounds grounds(setup_, files_);
   for (const Group& group : groups_of(setup_)) {
     const Ground& ground = grounds.of(group.labyrinth);
@@ -87,11 +99,12 @@ TEST_F(ExperimentTest, each_scenario_is_in_one_group_and_its_case_can_be_read) {
       EXPECT_TRUE(seen.insert(scenario).second);
       const Case drawn = prepared.case_of(scenario);
       EXPECT_EQ(drawn.kinds.empty(), drawn.what == Class::kNone);
-      EXPECT_NO_THROW(static_cast<void>(town.scenario(drawn.scenario)));
+      EXPECT_NO_THROW(worn += worn_roads(town.labyrinth(), town.scenario(drawn.scenario)));
       EXPECT_TRUE(shortest_way(ground.floor, prepared.route().crossings.front(), prepared.route().crossings.back(), drawn.bans)) << drawn.scenario;
     }
   }
   EXPECT_EQ(seen.size(), setup_.scenarios);
+  EXPECT_GT(worn, 0u);
 }
 
 TEST(Streams, no_two_labyrinths_routes_and_cases_share_one) {
