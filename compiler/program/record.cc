@@ -51,9 +51,10 @@ void Recorder::note_writes(const Tick& tick) {
     for_each_net_write(program_, rule, [&](CellId cell, float value) {
       LastWrite& last = record_.last_write[index(cell)];
       const bool joins = last.tick == tick.number && program_[last.rules.back()].level == rule.level;
-      if (!joins) { last = {tick.number, {}, value, true}; }
-      last.of_one_mind = last.of_one_mind && last.value == value;
+      if (!joins) last = {tick.number, {}, {}, true};
       last.rules.push_back(id);
+      last.values.push_back(value);
+      last.of_one_mind = last.of_one_mind && last.values.front() == value;
     });
   }
 }

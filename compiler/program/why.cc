@@ -112,8 +112,8 @@ class Explainer {
   [[nodiscard]] std::string timer(CondId id, bool wanted) const {
     const CondId part = program_[id].children.front();
     const std::optional<std::int64_t> held = level_.held_us[index(id)];
-    if (!held) return explain(part, wanted);
     const std::int64_t limit = program_[id].duration_us;
+    if (!held) return explain(part, wanted) + (wanted ? fmt::format(", and that for {}", seconds(limit, 0)) : "");
     const std::string text = fmt::format("{} held for {}", words(part), seconds(*held, limit));
     const std::string asked = seconds(limit, *held);
     if (!holds(id)) return fmt::format("{} of {}", text, asked);
@@ -195,12 +195,14 @@ std::string what_fails(const std::vector<Reason>& reasons) {
   return some_hold ? text + "; all else holds" : text;
 }
 
-std::string who(const Program& program, const std::vector<RuleId>& rules) {
+/// "`near`, `far`", or with values "`near` (0.20), `far` (0.80)"
+std::string who(const Program& program, const std::vector<RuleId>& rules, const std::vector<float>& values = {}) {
   std::string text;
   Commas commas(", ");
-  for (const RuleId rule : rules) {
+  for (std::size_t i = 0; i < rules.size(); ++i) {
     commas.next(text);
-    text.append("`").append(program[rule].name) += '`';
+    text.append("`").append(program[rules[i]].name) += '`';
+    if (!values.empty()) text += fmt::format(" ({:.2f})", values[i]);
   }
   return text;
 }
@@ -283,7 +285,7 @@ CellStory explain_cell(const Program& program, const Record& record, CellId cell
     story.text += "no rule has written it since the start";
   } else {
     story.rules = last.rules;
-    story.text += fmt::format("last written at tick {} by {}{}", last.tick, who(program, last.rules),
+    story.text += fmt::format("last written at tick {} by {}{}", last.tick, last.of_one_mind ? who(program, last.rules) : who(program, last.rules, last.values),
                               last.of_one_mind ? "" : ", which were not of one mind");
   }
   return story;

@@ -31,8 +31,8 @@ struct LevelRecord {
 struct LastWrite {
   std::uint64_t tick = 0;     ///< 0: never
   std::vector<RuleId> rules;  ///< the rules that wrote it then, of the lowest level that did
-  float value = 0.0f;         ///< what they wrote, if they agreed
-  bool of_one_mind = true;
+  std::vector<float> values;  ///< what each of them wrote
+  bool of_one_mind = true;    ///< they wrote the same
 };
 
 struct Record {

@@ -18,6 +18,7 @@
 #include "sim/mind/control_words.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
+#include "tools/kbc/trace/stream.h"
 
 namespace kb::cli {
 namespace {
@@ -182,6 +183,16 @@ void keep_memory() {
   mallopt(M_ARENA_MAX, 1);   // one heap for all threads
 }
 
+/// Warns if files beside the knowledge base would include another header than the one that is written elsewhere.
+void diagnose_hidden(const CompileOptions& options, const Session::OutputFile& header, Session& session) {
+  const std::filesystem::path written = header.path, beside = std::filesystem::path(options.file).parent_path() / written.filename();
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(beside, missing) || std::filesystem::equivalent(beside, written, missing)) return;
+  std::string error;
+  const auto bytes = trace::read_all(beside.string(), header.bytes.size(), error);   // of a longer file nothing
+  if (bytes != header.bytes) session.report(Kind::kHiddenHeader, {beside.string(), header.path});
+}
+
 int compile(const CompileOptions& options, Session& session) {
   keep_memory();
   const std::string name_space = options.form == "cpp" ? choose_namespace(options, session) : "-";
@@ -196,6 +207,7 @@ int compile(const CompileOptions& options, Session& session) {
   if (!make_folder_of(names[0], session)) return kErrors;
   Files files = emit_files(options, *compiled, names, name_space, session);
   if (files.front().bytes.empty()) return kErrors;
+  if (options.form == "cpp") diagnose_hidden(options, files.front(), session);
   if (!options.depfile.empty()) files.push_back({options.depfile, print_depfile(files, session.files_read())});
   const bool large = compiled->program.rules.size() >= tables::kWorthAThread;
   const auto freed = std::async(large ? std::launch::async : std::launch::deferred, [&compiled] { compiled.reset(); });

@@ -35,7 +35,7 @@ class Measure {
       case Cond::Op::kFor: return timer(id, cond, wanted);
       case Cond::Op::kAnd: return wanted ? sum(cond, wanted) : least(cond, wanted);
       case Cond::Op::kOr: return wanted ? least(cond, wanted) : sum(cond, wanted);
-      default: return {1, gap(cond)};
+      default: return {1, gap(cond), id, wanted};
     }
   }
 
@@ -46,6 +46,7 @@ class Measure {
       const Nearness one = of(part, wanted);
       all.lacking += one.lacking;
       all.gap += one.gap;
+      if (one.lacking > 0) all.last = one.last, all.wanted = one.wanted;
     }
     return all;
   }
@@ -63,9 +64,9 @@ class Measure {
     const auto held = level_.held_us[index(id)];
     const double missing_s = std::abs(static_cast<double>(cond.duration_us) - static_cast<double>(held.value_or(0))) / 1e6;
     const double gap = missing_s / (missing_s + 1.0);
-    if (!wanted || held) return {1, gap};
+    if (!wanted || held) return {1, gap, id, wanted};
     const Nearness begin = of(cond.children.front(), true);
-    return {begin.lacking, begin.gap + gap};
+    return {begin.lacking, begin.gap + gap, id, true};
   }
   [[nodiscard]] double gap(const Cond& cond) const {
     const double value = static_cast<double>(level_.cf[index(cond.cell)]), cut = static_cast<double>(firing(program_));
@@ -162,8 +163,8 @@ Answer answer(const Program& program, const Record& record, const Question& ques
   if (question.cell != CellId::kNone) out.cells.push_back(answer_cell(program, record, question.cell));
   if (question.strategy != CellId::kNone) {
     out.strategy = answer_strategy(program, record, question.strategy);
-    for (const CellId satellite : program[question.strategy].satellites)
-      out.cells.push_back(answer_cell(program, record, satellite));
+    for (const CellId satellite : program[question.strategy].satellites) out.cells.push_back(answer_cell(program, record, satellite));
+    std::ranges::stable_partition(out.cells, [&](const CellAnswer& cell) { return cell.story.value >= firing(program); });   // those that want it
   }
   if (!question.rules.empty() || question.cell != CellId::kNone || question.strategy != CellId::kNone) return out;
   out.of_whole_tick = true;

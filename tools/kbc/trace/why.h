@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/program/program.h"
@@ -17,8 +18,12 @@ namespace kb::trace {
 struct Nearness {
   std::uint32_t lacking = 0;
   double gap = 0.0;
+  /// If one condition lacks: which, and whether it would have to hold or not to.
+  program::CondId last = program::CondId::kNone;
+  bool wanted = true;
   /// Nearer is less: the fewer conditions first, then the smaller gap.
-  friend auto operator<=>(const Nearness&, const Nearness&) = default;
+  friend auto operator<=>(const Nearness& a, const Nearness& b) { return std::pair(a.lacking, a.gap) <=> std::pair(b.lacking, b.gap); }
+  friend bool operator==(const Nearness& a, const Nearness& b) { return a <=> b == 0; }
 };
 [[nodiscard]] Nearness nearness(const program::Program& program, const program::Record& record, program::RuleId rule);
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "compiler/diagnostics/display.h"
+#include "compiler/program/text.h"
 
 namespace kb::trace {
 namespace {
@@ -97,12 +98,37 @@ Nearness WhySearch::nearness(const program::Record& record) const {
   return {running.lacking + rising.lacking, running.gap + rising.gap};
 }
 
+void WhySearch::note_alone(const program::Record& record) {
+  for (const RuleId rule : rules_) {
+    const Nearness near = trace::nearness(program_, record, rule);
+    if (near.lacking != 1) continue;
+    const auto known = std::ranges::find_if(alone_, [&](const Alone& one) { return one.rule == rule && one.near.last == near.last; });
+    if (known == alone_.end()) alone_.push_back({rule, near, record.tick.number});
+    else if (near < known->near) *known = {rule, near, record.tick.number};
+  }
+}
+
+/// "At tick 243 nothing but `Arrived` was missing. ", of what else kept the rule that came nearest from firing; at most three.
+std::string WhySearch::print_alone() const {
+  const auto nearest = std::ranges::find_if(alone_, [&](const Alone& one) { return one.tick == nearest_.tick.number && one.near == near_; });
+  if (nearest == alone_.end()) return {};
+  std::string out;
+  std::size_t told = 0;
+  for (const Alone& one : alone_) {
+    if (one.rule != nearest->rule || one.near.last == nearest->near.last || told++ == 3) continue;
+    const std::string condition = program::print_condition(program_, one.near.last);
+    out += fmt::format("At tick {} nothing but `{}{}` was missing. ", one.tick, one.near.wanted ? "" : "not ", condition);
+  }
+  return out;
+}
+
 void WhySearch::consider(const program::Tick& tick, program::Recorder& recorder) {
   if (happened(tick)) {
     ticks_.push_back(tick.number);
     if (const program::CellValue* now = change(tick)) values_.push_back(now->value);
   }
   if (!ticks_.empty()) return;
+  if (cell_ == CellId::kNone) note_alone(recorder.record());
   const bool passing = cell_ != CellId::kNone && program_[cell_].kind == CellKind::kSatellite && !levels_in_passing(recorder.record(), cell_).empty();
   if (passing) passing_.push_back(tick.number);
   const Nearness near = nearness(recorder.record());
@@ -120,7 +146,7 @@ std::string WhySearch::print(std::string_view name, std::uint64_t ticks) const {
   if (ticks_.empty() && !passing_.empty()) {
     return fmt::format("`{}` changed within {} of {}, and back before they ended: {}. The first:\n", name, passing_.size(), of, list(passing_, {}));
   }
-  if (ticks_.empty()) return fmt::format("`{}` {} in {}. {} tick {}:\n", name, words.did_not, of, near_ == kFar ? "At" : "It came nearest at", nearest_.tick.number);
+  if (ticks_.empty()) return fmt::format("`{}` {} in {}. {}{} tick {}:\n", name, words.did_not, of, print_alone(), near_ == kFar ? "At" : "It came nearest at", nearest_.tick.number);
   if (ticks_.size() == 1) return fmt::format("`{}` {} once in {}:\n", name, words.happened, of);
   return fmt::format("`{}` {} on {} of {}: {}. The first:\n", name, words.happened, ticks_.size(), of, list(ticks_, values_));
 }
