@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
@@ -62,9 +63,9 @@ std::optional<Demand> read_demand(std::string_view text, std::string& why) {
   Demand demand{sign.sign, std::string(text), 0, 0.0, number.ends_with('%')};
   if (demand.share) number = source::trimmed(number.substr(0, number.size() - 1));
   const auto kind = find_kind(name);
-  const bool good = source::read_number(number, demand.number) && demand.number >= 0.0 && (!demand.share || demand.number <= 100.0);
+  const bool good = source::read_number(number, demand.number) && demand.number >= 0.0 && (demand.share ? demand.number <= 100.0 : demand.number == std::floor(demand.number));
   if (!kind) why = fmt::format("nothing is counted that is called `{}`, but {}", name, all_kinds());
-  else if (!good) why = fmt::format("`{}` wants a number of runs, or of percent up to 100%", text);
+  else if (!good) why = fmt::format("`{}` wants a whole number of runs, or percent up to 100%", text);
   if (!kind || !good) return std::nullopt;
   demand.kind = *kind;
   return demand;

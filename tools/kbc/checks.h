@@ -18,6 +18,7 @@
 #include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
 #include "sim/scenario/setting.h"
+#include "tools/kbc/named_files.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/table.h"
 
@@ -29,7 +30,7 @@ inline void refuse_shared_standard_output(CLI::App& app, std::vector<CLI::Option
     const CLI::Option* first = nullptr;
     for (const CLI::Option* output : outputs) {
       const bool file = output->get_items_expected_max() > 0;
-      if (output->empty() || (file && output->as<std::string>() != "-")) continue;
+      if (output->empty() || (file && !is_standard_output(output->as<std::string>()))) continue;
       if (first != nullptr) throw CLI::ValidationError("standard output can take one of " + first->get_name() + " and " + output->get_name() + "; name a file for the other");
       first = output;
     }

@@ -14,6 +14,7 @@
 #include "tools/kbc/drive_log.h"
 #include "tools/kbc/drive_orders.h"
 #include "tools/kbc/interrupts.h"
+#include "tools/kbc/named_files.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/wire/describe.h"
@@ -157,7 +158,7 @@ Run setup_drive(CLI::App& app) {
   auto* trace = app.add_option("--trace", options->log.trace, "Write the trace to this file, JSON lines")->type_name("FILE");
   auto* describe = app.add_flag("--describe", options->describe, "Print what a host can know before it drives, JSON: fields, facts, buttons, landmarks, the robot");
   for (CLI::Option* file : {record, facts, trace}) {
-    file->excludes(describe)->check([](const std::string& path) { return path == "-" ? std::string("standard output is for the answers; name a file") : std::string(); });
+    file->excludes(describe)->check([](const std::string& path) { return is_standard_output(path) ? std::string("standard output is for the answers; name a file") : std::string(); });
   }
   add_order_options(app, options->orders);
   for (const char* not_with : {"--facts", "--describe"}) app.get_option("--orders")->excludes(not_with);

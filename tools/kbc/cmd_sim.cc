@@ -18,6 +18,7 @@
 #include "tools/kbc/drive_verdict.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/live_drive.h"
+#include "tools/kbc/named_files.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/wire/line_channel.h"
@@ -44,7 +45,8 @@ struct SimOptions {
     return live || !facts.empty() || !html.empty() || !svg.empty() || !perfetto.empty() || !csv.empty();
   }
   [[nodiscard]] bool to_stdout() const {
-    return summary == "-" || trace == "-" || facts == "-" || html == "-" || svg == "-" || perfetto == "-" || csv == "-";
+    const auto outputs = {&summary, &trace, &facts, &html, &svg, &perfetto, &csv};
+    return std::ranges::any_of(outputs, [](const std::string* path) { return is_standard_output(*path); });
   }
 };
 
@@ -112,7 +114,8 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   }
   sim::Drive drive(labyrinth, *ground.knowledge, scene.scenario, how);
   if (options.live) {
-    if (!drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed.value_or(1.0), how.dt_us}, session)) return kErrors;
+    const int code = drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed.value_or(1.0), how.dt_us}, session);
+    if (code != kClean) return code;
   } else {
     Progress progress(session, "ticks");
     const auto began = std::chrono::steady_clock::now();

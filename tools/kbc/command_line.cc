@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -225,6 +226,7 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
 
 int run_kbc_guarded(int argc, char** argv, Ranks* ranks) {
   hold_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);   // a file beyond the limit of the user is an output that cannot be written
   try {
     return run_kbc(argc, argv, ranks);
   } catch (const std::bad_alloc&) {

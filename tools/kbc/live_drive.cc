@@ -8,6 +8,7 @@
 
 #include "sim/live/live_page.h"
 #include "tools/kbc/interrupts.h"
+#include "tools/kbc/support.h"
 
 namespace kb::cli {
 namespace {
@@ -40,12 +41,12 @@ void wait_until(Clock::time_point when) {
   for (auto now = Clock::now(); now < when && !Interrupts::came(); now = Clock::now()) std::this_thread::sleep_until(std::min(when, now + kLook));
 }
 
-bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
+int drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
                 const program::Program& program, const LiveOptions& options, Session& session) {
   sim::LivePage page(recording);
   if (!page.start(options.port)) {
     session.report(diagnostics::Kind::kSimPortTaken, {fmt::format("{}", options.port)});
-    return false;
+    return kErrors;
   }
   session.announce(fmt::format("http://127.0.0.1:{}/  (Ctrl-C ends)", page.port()));
   const auto tick = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.dt_us / 1e6 / options.speed));
@@ -63,9 +64,10 @@ bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::L
     next = std::max(next + tick, Clock::now());   // lost time is not made up for
   }
   page.finish(recording);
-  if (!Interrupts::came()) session.remark("the drive is over; the page stays until Ctrl-C");
+  if (more) return kInterrupted;
+  session.remark("the drive is over; the page stays until Ctrl-C");
   wait_until(Clock::time_point::max());
-  return true;
+  return kClean;
 }
 
 }  // namespace kb::cli

@@ -19,9 +19,9 @@ struct LiveOptions {
 void wait_until(std::chrono::steady_clock::time_point when);
 
 /// Drives to the end and serves the page until the user interrupts (Ctrl-C, SIGTERM), even after the end of the drive. An interrupt during
-/// the drive ends it. The caller must hold an `Interrupts`. `recording` is the one that `drive` writes. False if the port is not
-/// available (reported).
-[[nodiscard]] bool drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
+/// the drive breaks it off. The caller must hold an `Interrupts`. `recording` is the one that `drive` writes. kErrors if the port is not
+/// available (reported), kInterrupted if the drive has not come to its end.
+[[nodiscard]] int drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
                               const program::Program& program, const LiveOptions& options, Session& session);
 
 }  // namespace kb::cli

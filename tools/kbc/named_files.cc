@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "tools/kbc/command_line.h"
+#include "tools/kbc/trace/output_file.h"
 
 namespace kb::cli {
 namespace {
@@ -32,11 +33,13 @@ std::string complain(const Named& first, const Named& second) {
 
 }  // namespace
 
+bool is_standard_output(std::string_view path) { return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1"; }
+
 std::optional<std::string> file_named(const std::string& path) {
   std::error_code error;
   if (path == "-" || (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))) return std::nullopt;
   // Twice, because `new/../link` becomes `link` only the first time.
-  return std::filesystem::weakly_canonical(std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error), error).string();
+  return std::filesystem::weakly_canonical(std::filesystem::weakly_canonical(std::filesystem::absolute(trace::led_to(path), error), error), error).string();
 }
 
 std::string named_twice(const CLI::App& command, const std::vector<std::string>& derived) {

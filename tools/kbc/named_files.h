@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI { class App; }
@@ -12,6 +13,9 @@ namespace kb::cli {
 
 /// The one name to which all names of an existing or future file lead; nothing for standard input, a device or a pipe.
 [[nodiscard]] std::optional<std::string> file_named(const std::string& path);
+
+/// Whether an output of this name goes to standard output: `-`, or the name that the system has for it.
+[[nodiscard]] bool is_standard_output(std::string_view path);
 
 /// A fault if two options of a parsed command line name one file, or one of them names a file of `derived`, which the command writes under
 /// names made from its options. Empty if all is well. Two arguments may name one file, as both are only read.

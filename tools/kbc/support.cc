@@ -126,7 +126,8 @@ bool Session::take_warning_options() {
 
 void Session::tell(std::string_view text) {
   flush_output();   // so that both streams appear in order if they go to the same place
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  const bool told = std::fwrite(text.data(), 1, text.size(), stderr) == text.size();
+  untold_ = untold_ || (!told && (errno == ENOSPC || errno == EFBIG || errno == EDQUOT));
 }
 
 std::unique_ptr<diagnostics::Consumer> Session::make_consumer(const source::Sources& sources) {
@@ -352,6 +353,7 @@ int Session::finish(int code) {
   if (sarif_) tell(sarif_->print());
   const std::string counts = diagnostics::summary(errors_, warning_count_);
   if (!counts.empty() && options_.format == "text") remark(counts);
+  if (code == kClean && untold_) return kErrors;   // who reads messages from a file must not take a full disk for a clean run
   return code == kClean ? exit_code() : code;
 }
 

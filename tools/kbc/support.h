@@ -153,6 +153,7 @@ class Session {
   std::string library_;
   bool color_ = false;
   int output_error_ = 0;   // errno of the first failed write to standard output
+  bool untold_ = false;    // a message was lost for want of room
   std::size_t errors_ = 0, warning_count_ = 0;
   std::string last_error_;
   std::set<std::string> said_;   // messages about imported files, which are not repeated

@@ -28,8 +28,7 @@ bool OutputFile::fail(int code) {
   return false;
 }
 
-/// Where a path leads over symbolic links, also if there is no file yet. Empty if it leads nowhere.
-static std::string led_to(std::filesystem::path path) {
+std::string led_to(std::filesystem::path path) {
   std::error_code failed;
   if (auto real = std::filesystem::canonical(path, failed); !failed) return real.string();
   if (std::filesystem::exists(path, failed)) return path.string();   // /dev/stdout leads to a pipe, which has no path

@@ -1,11 +1,15 @@
 // Output files that appear whole and together, or not at all.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace kb::trace {
+
+/// Where a path leads over symbolic links, also if there is no file yet. Empty if it leads nowhere.
+[[nodiscard]] std::string led_to(std::filesystem::path path);
 
 /// note [two phases of writing]
 /// A header and a source that belong together must not be left half new when the disk is full. So each output is first
