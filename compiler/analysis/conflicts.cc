@@ -39,9 +39,15 @@ constexpr std::size_t kMostFindings = 1'000; ///< pairs of rules as written; far
 constexpr std::size_t kMostDemands = 2'000'000;  ///< of the rules of one level; once there are more, `no` over a long group demands nothing
 constexpr std::size_t kFewParts = 64;
 
+/// A rule that writes a thing. Of two that disagree about it at least one raises it.
+struct Writer {
+  std::uint32_t rule = 0;
+  bool raises = false;
+};
+
 /// What the rules of one level write to one thing: a cell, or an exclusive group as a whole.
 struct Contest {
-  std::vector<std::uint32_t> rules;  ///< ascending, without repetition
+  std::vector<Writer> writers;  ///< by rule, ascending, each once
   bool raised = false;
   bool lowered = false;
 };
@@ -127,12 +133,13 @@ class ConflictQuestions {
     for_each_write_of(begin, end, [&](std::uint32_t rule, std::uint32_t thing, bool raises, bool lowers) {
       if (contested_[thing] != kContested || !demands(rule).possible) return;
       Contest& contest = contests[thing];
-      if (contest.rules.empty() || contest.rules.back() != rule) contest.rules.push_back(rule);
+      if (contest.writers.empty() || contest.writers.back().rule != rule) contest.writers.push_back({rule, false});
+      contest.writers.back().raises = contest.writers.back().raises || raises;
       contest.raised = contest.raised || raises;
       contest.lowered = contest.lowered || lowers;
     });
     for (const auto& [thing, contest] : contests) {
-      if (contest.raised && contest.lowered && contest.rules.size() > 1) search_contest(thing, contest.rules);
+      if (contest.raised && contest.lowered && contest.writers.size() > 1) search_contest(thing, contest.writers);
     }
     for_each_write_of(begin, end, [&](std::uint32_t, std::uint32_t thing, bool, bool) { contested_[thing] = 0; });
     demands_.clear();
@@ -153,14 +160,15 @@ class ConflictQuestions {
     std::optional<std::uint32_t> choice;
     std::uint64_t pairs = 0;
   };
-  [[nodiscard]] Key best_key(const std::vector<std::uint32_t>& rules) {
+  [[nodiscard]] Key best_key(const std::vector<Writer>& writers) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> demanded;  // choice, member
-    for (const std::uint32_t rule : rules) {
-      for (const Holder& holder : demands(rule).holders) demanded.emplace_back(holder.choice, holder.variable);
+    for (const Writer& writer : writers) {
+      for (const Holder& holder : demands(writer.rule).holders) demanded.emplace_back(holder.choice, holder.variable);
     }
     std::sort(demanded.begin(), demanded.end());
-    const std::uint64_t all = rules.size();
-    Key best{std::nullopt, all * all / 2};
+    const std::uint64_t all = writers.size();
+    const auto raisers = static_cast<std::uint64_t>(std::ranges::count_if(writers, &Writer::raises));
+    Key best{std::nullopt, std::min(all * all / 2, raisers * all)};
     for (std::size_t begin = 0; begin < demanded.size();) {
       const std::uint32_t choice = demanded[begin].first;
       std::uint64_t keyed = 0;
@@ -179,32 +187,47 @@ class ConflictQuestions {
   }
 
   /// See note [conflict buckets].
-  void search_contest(std::uint32_t thing, const std::vector<std::uint32_t>& rules) {
-    const Key key = best_key(rules);
+  void search_contest(std::uint32_t thing, const std::vector<Writer>& writers) {
+    const Key key = best_key(writers);
     pairs_ += key.pairs;
-    if (key.pairs > kMostPairs || pairs_ > kMostPairsInAll) return give_up(thing, program_.rules[rules.front()].level);
+    if (key.pairs > kMostPairs || pairs_ > kMostPairsInAll) return give_up(thing, program_.rules[writers.front().rule].level);
     reset_here_.clear();
     std::ranges::copy_if(reset_, std::back_inserter(reset_here_), [&](CellId cell) { return thing_of(cell) == thing; });
-    std::map<std::uint32_t, std::vector<std::uint32_t>> buckets;
-    std::vector<std::uint32_t> unkeyed;
-    for (const std::uint32_t rule : rules) {
-      const std::vector<Holder>& holders = demands(rule).holders;
+    std::map<std::uint32_t, std::vector<Writer>> buckets;
+    std::vector<Writer> unkeyed;
+    for (const Writer& writer : writers) {
+      const std::vector<Holder>& holders = demands(writer.rule).holders;
       const auto holder =
           std::find_if(holders.begin(), holders.end(), [&](const Holder& h) { return h.choice == key.choice; });
-      (holder == holders.end() ? unkeyed : buckets[holder->variable]).push_back(rule);
+      (holder == holders.end() ? unkeyed : buckets[holder->variable]).push_back(writer);
     }
     for (const auto& [member, bucket] : buckets) {
-      for (std::size_t i = 0; i < bucket.size(); ++i) {
-        for (std::size_t j = i + 1; j < bucket.size(); ++j) compare(thing, bucket[i], bucket[j]);
-      }
-      for (const std::uint32_t keyed : bucket) {
-        for (const std::uint32_t free : unkeyed) compare(thing, std::min(keyed, free), std::max(keyed, free));
+      compare_all(thing, bucket);
+      for (const Writer& keyed : bucket) {
+        for (const Writer& free : unkeyed) {
+          if (keyed.raises || free.raises) compare(thing, std::min(keyed.rule, free.rule), std::max(keyed.rule, free.rule));
+        }
       }
     }
-    for (std::size_t i = 0; i < unkeyed.size(); ++i) {
-      for (std::size_t j = i + 1; j < unkeyed.size(); ++j) compare(thing, unkeyed[i], unkeyed[j]);
+    compare_all(thing, unkeyed);
+    if (found_.size() >= kMostFindings) give_up(thing, program_.rules[writers.front().rule].level);
+  }
+
+  /// Each with all later ones, but those that do not raise with those that do only.
+  void compare_all(std::uint32_t thing, const std::vector<Writer>& writers) {
+    std::vector<std::size_t> raisers;
+    for (std::size_t i = 0; i < writers.size(); ++i) {
+      if (writers[i].raises) raisers.push_back(i);
     }
-    if (found_.size() >= kMostFindings) give_up(thing, program_.rules[rules.front()].level);
+    auto next = raisers.begin();   // the first of them after the i-th writer
+    for (std::size_t i = 0; i < writers.size(); ++i) {
+      if (next != raisers.end() && *next == i) ++next;
+      if (writers[i].raises) {
+        for (std::size_t j = i + 1; j < writers.size(); ++j) compare(thing, writers[i].rule, writers[j].rule);
+      } else {
+        for (auto j = next; j != raisers.end(); ++j) compare(thing, writers[i].rule, writers[*j].rule);
+      }
+    }
   }
 
   void give_up(std::uint32_t thing, std::uint32_t level) {
@@ -257,6 +280,9 @@ class ConflictQuestions {
     const Rule& a = program_.rules[first];
     const Rule& b = program_.rules[second];
     if (a.reset != b.reset || found_.size() >= kMostFindings) return;  // a reset silences the others
+    const std::pair families{subject_.family[first], subject_.family[second]};
+    const auto known = found_.find(families);
+    if (known != found_.end() && (known->second.pairs.size() >= kMostCounted || known->second.pairs.contains({first, second}))) return;
     if (!compatible(demands(first), demands(second))) return;
     std::optional<Disagreement> about = raised_against(thing, a, b);
     if (!about) {
@@ -265,11 +291,7 @@ class ConflictQuestions {
     }
     if (!about) about = raised_apart(thing, a, b);
     if (!about && a.reset) about = between_resets(a, b);
-    if (!about) return;
-    const std::pair families{subject_.family[first], subject_.family[second]};
-    const auto known = found_.find(families);
-    const bool counted = known != found_.end() && (known->second.pairs.size() >= kMostCounted || known->second.pairs.contains({first, second}));
-    if (counted || fired_before(a, b) || fired_before(b, a) || !can_fire_together(a, b)) return;
+    if (!about || fired_before(a, b) || fired_before(b, a) || !can_fire_together(a, b)) return;
     Finding& finding = known != found_.end() ? known->second : found_.emplace(families, Finding{RuleId{first}, RuleId{second}, *about, {}}).first->second;
     finding.pairs.emplace(first, second);
   }

@@ -252,6 +252,9 @@ def what_editors_should_not_do(folder):
             expect(editor.ask_whole('textDocument/hover', {'textDocument': {'uri': uri}, 'position': place})['error']['code'] == -32602, f'{place} is no place')
     expect(editor.of('untitled:Untitled-1', 'hover', position={'line': 0, 'character': 0}) is None, 'of a file that is not there nothing is said')
     editor.tell('textDocument/didChange', {'textDocument': {'uri': 'file:///nowhere.kb'}, 'contentChanges': [{'text': 'x'}]})
+    here = {'line': 0, 'character': 0}
+    editor.tell('textDocument/didChange', {'textDocument': {'uri': uri, 'version': 2}, 'contentChanges': [{'range': {'start': here, 'end': here}, 'text': ''}]})
+    expect(editor.of(uri, 'documentSymbol') != [], 'a change of a part, which was not asked for, leaves the document as it was')
     for wrong in ({'id': 1}, {'id': [1]}, {}, [1], 1, None):
         editor.tell('$/cancelRequest', wrong)
     editor.send_bytes(b'{"jsonrpc":')

@@ -11,6 +11,7 @@
 #include "tools/kbc/layout_plant.h"
 #include "tools/kbc/vda5050/link/broker_url.h"
 #include "tools/kbc/vda5050/link/script_link.h"
+#include "tools/kbc/vda5050/vehicle.h"
 
 namespace kb::cli {
 
@@ -107,6 +108,7 @@ void check_together(const CLI::App& app, const OrderOptions& options) {
   std::set<std::string> types;
   for (const std::string& text : options.skills) {
     const std::string type = skill_of(text).type;
+    if (std::ranges::find(vda5050::kOwnActions, type) != vda5050::kOwnActions.end()) throw CLI::ValidationError("--skill", "`" + type + "` is an action that every vehicle does by itself");
     if (!types.insert(type).second) throw CLI::ValidationError("--skill", "`" + type + "` is given twice");
   }
 }

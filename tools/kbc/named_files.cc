@@ -60,12 +60,34 @@ std::string named_twice(const CLI::App& command, const std::vector<std::string>&
   return {};
 }
 
+namespace {
+
+/// Whether a list of values has an empty one, as in `A,` or `A,,B`. Looked for among the words of the command line, for the parser drops it.
+bool has_empty_item(const CLI::Option& list, std::span<char* const> words) {
+  const std::string around(1, list.get_delimiter());
+  const auto open = [&](std::string_view values) {
+    const std::string all = around + std::string(values) + around;
+    return values.find(around) != std::string_view::npos && all.find(around + around) != std::string::npos;
+  };
+  for (const std::string& name : list.get_lnames()) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const std::string_view word = words[i];
+      if (word == "--" + name && i + 1 < words.size() && open(words[i + 1])) return true;
+      if (word.starts_with("--" + name + "=") && open(word.substr(name.size() + 3))) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 std::string left_empty(const CLI::App& command, std::span<char* const> words) {
   const auto stands_open = [&words](const std::string& name) { return std::any_of(words.begin(), words.end(), [&](const char* word) { return word == name + "="; }); };
   for (const CLI::Option* option : command.get_options()) {
     const auto& values = option->results();
     const auto& names = option->get_lnames();
     const bool open = std::any_of(names.begin(), names.end(), [&](const std::string& name) { return stands_open("--" + name); });
+    if (option->get_delimiter() != '\0' && has_empty_item(*option, words)) return "an item of " + option_names(*option) + " is empty; a variable of the shell that is not set, perhaps";
     if (open || std::find(values.begin(), values.end(), "") != values.end()) return option_names(*option) + " is empty; a variable of the shell that is not set, perhaps";
   }
   return {};

@@ -21,7 +21,7 @@ namespace kb::cli {
 /// names made from its options. Empty if all is well. Two arguments may name one file, as both are only read.
 [[nodiscard]] std::string named_twice(const CLI::App& command, const std::vector<std::string>& derived = {});
 
-/// A fault if an argument or the value of an option is an empty text; empty if all is well. Commands may then take an empty text for an
+/// A fault if an argument, the value of an option or an item of a list is an empty text; empty if all is well. Commands may then take an empty text for an
 /// option that was not given. `words` is the raw command line: the parser turns `--dt=` into an option without a value.
 [[nodiscard]] std::string left_empty(const CLI::App& command, std::span<char* const> words);
 

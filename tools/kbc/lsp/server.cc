@@ -310,7 +310,10 @@ void Server::number(const std::string& path, const Json& params) {
 }
 Json Server::changed(const Json& params) {
   const std::string path = open_path_in(params);
-  for (const Json& change : params.at("contentChanges")) workspace_.change(path, change.at("text").get<std::string>());
+  for (const Json& change : params.at("contentChanges")) {
+    if (change.contains("range")) throw WrongParameters("a change has a range, and whole documents were asked for (textDocumentSync 1)");
+    workspace_.change(path, change.at("text").get<std::string>());
+  }
   number(path, params);
   return nullptr;
 }

@@ -64,7 +64,7 @@ Out action_states(const std::vector<Doing>& all) {
 }
 
 /// Has no `blockingTypes`, because the schema of 2.1.0 accepts no list there.
-Out agv_action(const std::string& type, Out scopes) { return {{"actionType", type}, {"actionScopes", std::move(scopes)}}; }
+Out agv_action(std::string_view type, Out scopes) { return {{"actionType", type}, {"actionScopes", std::move(scopes)}}; }
 
 Out limits(double visualization_s) {
   Out timing{{"minOrderInterval", 0.0}, {"minStateInterval", 0.0}, {"defaultStateInterval", 30.0}};
@@ -153,9 +153,7 @@ void Vehicle::State::send_factsheet(std::int64_t utc_us) {
                                {"width", rounded(sheet.width_m)}, {"length", rounded(sheet.length_m)}};
   out["protocolLimits"] = limits(sheet.visualization_s);
   Out able = Out::array();
-  for (const char* type : {"cancelOrder", "startPause", "stopPause", "stateRequest", "factsheetRequest", "initPosition"}) {
-    able.push_back(agv_action(type, Out::array({"INSTANT"})));
-  }
+  for (const std::string_view type : kOwnActions) able.push_back(agv_action(type, Out::array({"INSTANT"})));
   for (const Skill& skill : actions.skills()) able.push_back(agv_action(skill.type, Out::array({"INSTANT", "NODE", "EDGE"})));
   out["protocolFeatures"] = {{"optionalParameters", Out::array()}, {"agvActions", std::move(able)}};
   out["agvGeometry"] = Out::object();

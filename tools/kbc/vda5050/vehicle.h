@@ -13,10 +13,12 @@
 // comes to the node again, which until then is one of the nodes left to drive.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/kbc/vda5050/condition.h"
@@ -24,6 +26,9 @@
 #include "tools/kbc/vda5050/plant.h"
 
 namespace kb::vda5050 {
+
+/// The actions that every vehicle does by itself, in the order of the factsheet.
+inline constexpr std::array<std::string_view, 6> kOwnActions = {"cancelOrder", "startPause", "stopPause", "stateRequest", "factsheetRequest", "initPosition"};
 
 /// An action that the robot can do besides driving.
 struct Skill {
