@@ -91,10 +91,10 @@ struct Recorder : boost::default_bfs_visitor {
 
 /// Lengths to a tenth of a millimetre and numbers of roads, in one number. A longer road counts as one of 100 km, so a way of 10,000 such roads fits.
 constexpr int kRoadBits = 20;
-constexpr double kPerMetre = 1e4, kLongest = 1e9;
+constexpr double kPerMetre = 1e4, kLongestRoad = 1e9;
 
 Length length_between(const Point& a, const Point& b) {
-  return static_cast<Length>(std::llround(std::min(std::hypot(b.x - a.x, b.y - a.y) * kPerMetre, kLongest)));
+  return static_cast<Length>(std::llround(std::min(std::hypot(b.x - a.x, b.y - a.y) * kPerMetre, kLongestRoad)));
 }
 
 /// By directed road; 1 for the roads of a map of which some landmark has no place.
@@ -115,7 +115,7 @@ std::vector<Length> lengths_of_roads(const Draft& draft) {
       const Point* at = places[road.from];
       Length sum = 0;
       for (const Point& bend : map.through(bends)) sum += length_between(*std::exchange(at, &bend), bend);
-      length += std::min(sum + length_between(*at, *places[road.to]), static_cast<Length>(kLongest)) << kRoadBits;
+      length += std::min(sum + length_between(*at, *places[road.to]), static_cast<Length>(kLongestRoad)) << kRoadBits;
     }
   }
   return lengths;

@@ -7,9 +7,12 @@
 #include "compiler/syntax/syntax_mistakes.h"
 
 namespace kb::syntax {
+namespace {
 
 using diagnostics::Kind;
 using T = TokenKind;
+
+}  // namespace
 
 bool SyntaxError::is_rule_head() {
   if (statement_ != T::kRule) return false;

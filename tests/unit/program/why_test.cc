@@ -136,7 +136,7 @@ TEST(Why, SaysWhenARuleWasContradicted) {
   const Asked asked(b, {{{"F", 1.0f}}});
   EXPECT_EQ(asked.story("up").outcome, Outcome::kFiredContradicted);
   EXPECT_EQ(asked.cell_text("S"),
-            "`S` is 0.00 after tick 1: last written at tick 1 by `up`, `down`, which were not of one mind");
+            "`S` is 0.00 after tick 1: last written at tick 1 by `up` (1.00), `down` (-1.00), which were not of one mind");
 }
 
 TEST(Why, SaysWhoWroteACellLast) {
