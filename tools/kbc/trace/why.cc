@@ -164,7 +164,8 @@ Answer answer(const Program& program, const Record& record, const Question& ques
   if (question.strategy != CellId::kNone) {
     out.strategy = answer_strategy(program, record, question.strategy);
     for (const CellId satellite : program[question.strategy].satellites) out.cells.push_back(answer_cell(program, record, satellite));
-    std::ranges::stable_partition(out.cells, [&](const CellAnswer& cell) { return cell.story.value >= firing(program); });   // those that want it
+    const auto wants_it = [&](const CellAnswer& cell) { return cell.story.value >= firing(program); };
+    std::stable_partition(out.cells.begin(), out.cells.end(), wants_it);
   }
   if (!question.rules.empty() || question.cell != CellId::kNone || question.strategy != CellId::kNone) return out;
   out.of_whole_tick = true;
