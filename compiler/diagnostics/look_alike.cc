@@ -7,7 +7,7 @@
 #include <iterator>
 #include <vector>
 
-#include "compiler/diagnostics/display.h"
+#include "compiler/source/utf8.h"
 
 namespace kb::diagnostics {
 namespace {
@@ -15,7 +15,6 @@ namespace {
 struct Decomposition { char32_t whole, letter, mark; };
 constexpr Decomposition kDecompositions[] = {
 #include "compiler/diagnostics/decompositions.def"
-#include "compiler/source/utf8.h"
 };
 
 struct Twin { char32_t letter; char plain; };

@@ -12,7 +12,7 @@
 namespace kb::model {
 namespace {
 
-struct RoadProperty { std::uint32_t directed = 0; std::uint32_t road = 0; Length length = 0; };
+struct RoadProperty { std::uint32_t directed = 0; std::uint32_t road = 0; };
 using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, RoadProperty, boost::no_property,
                                                  std::uint32_t, std::uint32_t>;
 using Edge = boost::graph_traits<Graph>::edge_descriptor;
@@ -72,16 +72,17 @@ struct Recorder : boost::default_bfs_visitor {
   }
   template <class AnyGraph>
   void black_target(const Edge& edge, const AnyGraph& /*filtered*/) const {
-    if (from(edge) + (*graph)[edge].length < (*far)[to(edge)]) reach(edge), queue->push(to(edge));
+    if (far_by(edge) < (*far)[to(edge)]) reach(edge), queue->push(to(edge));
   }
   void reach(const Edge& edge) const {
     (*by)[to(edge)] = (*graph)[edge].directed;
-    (*far)[to(edge)] = from(edge) + (*graph)[edge].length;
+    (*far)[to(edge)] = far_by(edge);
   }
-  [[nodiscard]] Length from(const Edge& edge) const { return (*far)[boost::source(edge, *graph)]; }
+  [[nodiscard]] Length far_by(const Edge& edge) const { return (*far)[boost::source(edge, *graph)] + (*lengths)[(*graph)[edge].directed]; }
   [[nodiscard]] std::uint32_t to(const Edge& edge) const { return static_cast<std::uint32_t>(boost::target(edge, *graph)); }
 
   const Graph* graph;
+  const std::vector<Length>* lengths;   // by directed road
   std::uint32_t goal;
   std::vector<std::uint32_t>* by;
   std::vector<Length>* far;
@@ -138,7 +139,7 @@ RoadGraph::RoadGraph(const Draft& draft, bool backwards) : layout_(std::make_uni
   for (std::uint32_t id = 0; id < draft.roads.size(); ++id) {
     const DirectedRoad& road = draft.roads[id];
     edges.emplace_back(backwards ? road.to : road.from, backwards ? road.from : road.to);
-    properties.push_back({id, road.road, layout_->lengths[id]});
+    properties.push_back({id, road.road});
     layout_->from.push_back(edges.back().first);
   }
   layout_->graph = Graph(boost::edges_are_unsorted_multi_pass, edges.begin(), edges.end(), properties.begin(),
@@ -183,7 +184,7 @@ std::optional<Way> RoadSearch::shortest(std::uint32_t start, std::uint32_t goal,
   bool found = false;
   far_[start] = 0;
   Queue queue(far_, found);
-  boost::breadth_first_visit(open, start, queue, Recorder{{}, &graph, goal, &by_, &far_, &queue, &found}, SeenMap{&seen_in_, round_});
+  boost::breadth_first_visit(open, start, queue, Recorder{{}, &graph, &graph_.layout_->lengths, goal, &by_, &far_, &queue, &found}, SeenMap{&seen_in_, round_});
   return found ? known(goal) : std::nullopt;
 }
 

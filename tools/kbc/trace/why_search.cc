@@ -83,7 +83,6 @@ Nearness WhySearch::least(const std::vector<RuleId>& rules, const program::Recor
 
 /// A strategy needs that its satellite rises first, so that distance counts as well.
 Nearness WhySearch::nearness(const program::Record& record) const {
-  if (satellites_.empty()) return least(rules_, record);
   const std::vector<float>& cf = record.levels.back().cf;
   Nearness rising = kFar;
   for (const auto& [satellite, raisers] : satellites_) {
@@ -98,24 +97,31 @@ Nearness WhySearch::nearness(const program::Record& record) const {
   return {running.lacking + rising.lacking, running.gap + rising.gap};
 }
 
-void WhySearch::note_alone(const program::Record& record) {
-  for (const RuleId rule : rules_) {
-    const Nearness near = trace::nearness(program_, record, rule);
+/// The nearest of the rules asked for. Notes of each what alone kept it from firing.
+Nearness WhySearch::nearest_rule(const program::Record& record) {
+  Nearness least = kFar;
+  alone_.resize(rules_.size());
+  for (std::size_t i = 0; i < rules_.size(); ++i) {
+    const Nearness near = trace::nearness(program_, record, rules_[i]);
+    least = std::min(least, near);
     if (near.lacking != 1) continue;
-    const auto known = std::ranges::find_if(alone_, [&](const Alone& one) { return one.rule == rule && one.near.last == near.last; });
-    if (known == alone_.end()) alone_.push_back({rule, near, record.tick.number});
-    else if (near < known->near) *known = {rule, near, record.tick.number};
+    const auto known = std::ranges::find_if(alone_[i], [&](const Alone& one) { return one.near.last == near.last; });
+    if (known == alone_[i].end()) alone_[i].push_back({near, record.tick.number});
+    else if (near < known->near) *known = {near, record.tick.number};
   }
+  return least;
 }
 
 /// "At tick 243 nothing but `Arrived` was missing. ", of what else kept the rule that came nearest from firing; at most three.
 std::string WhySearch::print_alone() const {
-  const auto nearest = std::ranges::find_if(alone_, [&](const Alone& one) { return one.tick == nearest_.tick.number && one.near == near_; });
-  if (nearest == alone_.end()) return {};
+  const auto came_nearest = [this](const Alone& one) { return one.tick == nearest_.tick.number && one.near == near_; };
+  const auto of_rule = std::ranges::find_if(alone_, [&](const std::vector<Alone>& all) { return std::ranges::any_of(all, came_nearest); });
+  if (of_rule == alone_.end()) return {};
+  const auto nearest = std::ranges::find_if(*of_rule, came_nearest);
   std::string out;
   std::size_t told = 0;
-  for (const Alone& one : alone_) {
-    if (one.rule != nearest->rule || one.near.last == nearest->near.last || told++ == 3) continue;
+  for (const Alone& one : *of_rule) {
+    if (one.near.last == nearest->near.last || told++ >= 3) continue;
     const std::string condition = program::print_condition(program_, one.near.last);
     out += fmt::format("At tick {} nothing but `{}{}` was missing. ", one.tick, one.near.wanted ? "" : "not ", condition);
   }
@@ -128,10 +134,9 @@ void WhySearch::consider(const program::Tick& tick, program::Recorder& recorder)
     if (const program::CellValue* now = change(tick)) values_.push_back(now->value);
   }
   if (!ticks_.empty()) return;
-  if (cell_ == CellId::kNone) note_alone(recorder.record());
   const bool passing = cell_ != CellId::kNone && program_[cell_].kind == CellKind::kSatellite && !levels_in_passing(recorder.record(), cell_).empty();
   if (passing) passing_.push_back(tick.number);
-  const Nearness near = nearness(recorder.record());
+  const Nearness near = cell_ == CellId::kNone ? nearest_rule(recorder.record()) : nearness(recorder.record());
   const bool nearer = passing_.empty() ? near < near_ : passing && passing_.size() == 1;
   if (nearest_.tick.number == 0 || nearer) {
     near_ = near;

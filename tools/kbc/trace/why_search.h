@@ -34,7 +34,7 @@ class WhySearch {
  private:
   [[nodiscard]] bool happened(const program::Tick& tick) const;
   [[nodiscard]] const program::CellValue* change(const program::Tick& tick) const;   // of the satellite asked for; null if there was none
-  void note_alone(const program::Record& record);
+  Nearness nearest_rule(const program::Record& record);
   [[nodiscard]] std::string print_alone() const;
   [[nodiscard]] Nearness least(const std::vector<program::RuleId>& rules, const program::Record& record) const;
   [[nodiscard]] Nearness nearness(const program::Record& record) const;
@@ -50,11 +50,10 @@ class WhySearch {
   program::Record nearest_;
   Nearness near_{UINT32_MAX, 0.0};
   struct Alone {
-    program::RuleId rule;
     Nearness near;
     std::uint64_t tick;
   };
-  std::vector<Alone> alone_;             // by rule asked for and condition: the tick on which nothing else lacked, the nearest of several
+  std::vector<std::vector<Alone>> alone_;   // by place in `rules_`, for each condition: the tick on which nothing else lacked, the nearest of several
   std::vector<std::uint64_t> ticks_;
   std::vector<float> values_;
   std::vector<std::uint64_t> passing_;   // of a satellite that never changed from tick to tick: those on which it did, and back before they ended
