@@ -40,11 +40,13 @@ freestanding() {    # the runtime without a standard library; the kbc of the bui
     cmake --build --preset freestanding && ctest --preset freestanding
 }
 sanitized() {       # clang++, -Werror, address and undefined-behaviour sanitizers; no lines in traces, which takes a tenth off
-  cmake --preset asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DWAYMARK_WERROR=ON -DWAYMARK_BUILD_EXAMPLES=OFF &&
+  cmake --preset asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DWAYMARK_WERROR=ON -DWAYMARK_BUILD_EXAMPLES=OFF \
+    -DWAYMARK_TEST_ONCE=ON &&
     cmake --build --preset asan-ubsan
 }
-sanitized_tests() { # the whole compiler and the runtime on every golden case, unit test and file of the fuzz corpus
-  # (the examples of the explanations have been compiled in `tests`; the one of four million rules takes ten minutes here)
+sanitized_tests() { # the whole compiler and the runtime on golden cases, unit tests and the fuzz corpus
+  # (long golden cases, long unit tests and the examples of the explanations have been run in `tests`; the example of four million
+  # rules would take ten minutes here)
   ctest --preset asan-ubsan --timeout 3600 -E '^(golden.explanations|equivalence.*|docs.*|layout.*)$'
 }
 same_bytes() {      # two builds, two folders, two locales, two time zones

@@ -54,6 +54,14 @@ function(waymark_parsed_headers name)
   target_precompile_headers(${name} PRIVATE ${WAYMARK_STANDARD_HEADERS} <fmt/format.h> <nlohmann/json.hpp>)
 endfunction()
 
+# A program that is compiled as modules are, with their headers.
+function(waymark_share_parsed_headers program)
+  target_link_libraries(${program} PRIVATE waymark_warnings fmt::fmt nlohmann_json::nlohmann_json)
+  if(TARGET waymark_headers)
+    target_precompile_headers(${program} REUSE_FROM waymark_headers)
+  endif()
+endfunction()
+
 function(waymark_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "OPTIMISED" "" "SOURCES;LINKS;PRIVATE;PARSED")
   add_library(${name} STATIC ${arg_SOURCES})

@@ -17,8 +17,12 @@ The expectation stands in the sibling `NAME.out`: what was printed, then what we
 code. The name of a case is a sentence, and begins with `fail_` if and only if its last command fails. A crash is never
 an expectation: exit code 70, a signal, or a sanitizer's report fail whatever stands in the `.out`.
 
+Where the first line says `# RUN LONG:`, --short leaves the case out. These are drives of minutes and inputs of megabytes: one
+case of thirty, and half of the time under sanitizers, over code that the others go through as well.
+
     run.py --kbc build/release/bin/kbc [filter...]     all cases, or those whose path has a filter in it
     run.py --kbc ... --update [filter...]              writes the expectations anew; look at the diff before you commit
+    run.py --kbc ... --short [filter...]               without the long ones
 """
 import argparse
 import concurrent.futures
@@ -39,9 +43,10 @@ BUG_OF_OURS = 70
 
 
 class Case:
-    def __init__(self, path, commands):
+    def __init__(self, path, commands, is_long):
         self.path = path
         self.commands = commands
+        self.is_long = is_long
         self.folder, self.file = os.path.split(path)
         self.stem = os.path.splitext(self.file)[0]
         self.expected_path = os.path.join(self.folder, self.stem + ".out")
@@ -57,15 +62,16 @@ class Case:
 
 
 def read_commands(path):
-    """The RUN lines at the top of a file; none if it is not a case."""
-    commands = []
+    """The RUN lines at the top of a file, none if it is not a case; and whether it is a long one."""
+    commands, is_long = [], False
     with open(path, encoding="utf-8", errors="surrogateescape") as file:
         for line in file:
-            match = re.match(r"^# RUN: (.+)$", line.rstrip("\n"))
+            match = re.match(r"^# RUN( LONG)?: (.+)$", line.rstrip("\n"))
             if not match:
                 break
-            commands.append(match.group(1))
-    return commands
+            commands.append(match.group(2))
+            is_long = is_long or match.group(1) is not None
+    return commands, is_long
 
 
 def find_cases():
@@ -80,9 +86,9 @@ def find_cases():
             if name.endswith(".out"):
                 outs.add(path)
                 continue
-            commands = read_commands(path)
+            commands, is_long = read_commands(path)
             if commands:
-                cases.append(Case(path, commands))
+                cases.append(Case(path, commands, is_long))
     orphans = sorted(outs - {case.expected_path for case in cases})
     return cases, orphans
 
@@ -147,6 +153,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--kbc", required=True, help="the kbc to test")
     parser.add_argument("--update", action="store_true", help="write the expectations anew")
+    parser.add_argument("--short", action="store_true", help="leave out the cases that are marked as long")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2)
     parser.add_argument("filter", nargs="*", help="only cases whose path has one of these in it")
     options = parser.parse_args()
@@ -158,6 +165,9 @@ def main():
     if options.filter:
         cases = [case for case in cases if any(word in case.name for word in options.filter)]
         orphans = []
+    left_out = sum(case.is_long for case in cases) if options.short else 0
+    if options.short:
+        cases = [case for case in cases if not case.is_long]
     failed = 0
     for orphan in orphans:
         print(f"FAIL {os.path.relpath(orphan, HERE)}: belongs to no case")
@@ -169,7 +179,7 @@ def main():
             if report:
                 print(report)
                 failed += 1
-    print(f"{len(cases) + len(orphans) - failed} passed, {failed} failed")
+    print(f"{len(cases) + len(orphans) - failed} passed, {failed} failed" + (f", {left_out} long ones left out" if left_out else ""))
     return 1 if failed or not cases else 0
 
 

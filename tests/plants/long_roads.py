@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Drives missions through chains of crossings made at random: roads of 3 to 30 m with bends near their ends, by line, by walls, by both.
 
-  long_roads.py --kbc build/test/bin/kbc [--count 200] [--seed 1] [--keep DIR]
+  long_roads.py --kbc build/test/bin/kbc [--count 100] [--seed 1] [--keep DIR]
 
 Nothing goes wrong but what odometry and compass do by themselves. Maps that the simulator cannot build (roads too near to each other) are
 left out, at most half of them. Exits with 1 unless all robots arrive, touch nothing and know where they are.
@@ -91,7 +91,7 @@ def drive(chosen, methods, number, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--kbc', required=True)
-    parser.add_argument('--count', type=int, default=200, help='for each way to build the roads')
+    parser.add_argument('--count', type=int, default=100, help='for each way to build the roads')
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--keep', type=pathlib.Path, help='a folder for the missions that fail')
     chosen = parser.parse_args()

@@ -1,4 +1,4 @@
-# RUN: PYTHONPATH=orders.d python3 %s > %t/orders.jsonl && kbc sim orders.d/ring.kb -w --scenario orders.d/midway.toml --driver "kbc drive orders.d/ring.kb -w --orders %t/orders.jsonl --messages %t/messages.jsonl" && python3 orders.d/told.py %t/messages.jsonl
+# RUN LONG: PYTHONPATH=orders.d python3 %s > %t/orders.jsonl && kbc sim orders.d/ring.kb -w --scenario orders.d/midway.toml --driver "kbc drive orders.d/ring.kb -w --orders %t/orders.jsonl --messages %t/messages.jsonl" && python3 orders.d/told.py %t/messages.jsonl
 from order import *
 def stands_at(t, name, **where):
     instant(t, "initPosition", name, **{"x": 4.45, "y": 0.05, "theta": 0.1, "mapId": "Yard", "lastNodeId": "Well", **where})

@@ -1,1 +1,1 @@
-# RUN: kbc import lif %d/hall.json -w -q -o %t/hall.kb; kbc sim %t/hall.kb -w --scenario %d/start.toml --driver "kbc drive %t/hall.kb -w --orders %d/orders.jsonl --imported-from lif:%d/hall.json --messages %t/m.jsonl"; python3 %d/states.py %t/m.jsonl
+# RUN LONG: kbc import lif %d/hall.json -w -q -o %t/hall.kb; kbc sim %t/hall.kb -w --scenario %d/start.toml --driver "kbc drive %t/hall.kb -w --orders %d/orders.jsonl --imported-from lif:%d/hall.json --messages %t/m.jsonl"; python3 %d/states.py %t/m.jsonl

@@ -1,4 +1,4 @@
-# RUN: PYTHONPATH=orders.d python3 %s > %t/orders.jsonl && kbc sim orders.d/ring.kb -w --scenario orders.d/crossing.toml --driver "kbc drive orders.d/ring.kb -w --orders %t/orders.jsonl --messages %t/messages.jsonl" && python3 orders.d/told.py %t/messages.jsonl | grep -v 'driving, to Mill Barn$\|to Mill Barn$'
+# RUN LONG: PYTHONPATH=orders.d python3 %s > %t/orders.jsonl && kbc sim orders.d/ring.kb -w --scenario orders.d/crossing.toml --driver "kbc drive orders.d/ring.kb -w --orders %t/orders.jsonl --messages %t/messages.jsonl" && python3 orders.d/told.py %t/messages.jsonl | grep -v 'driving, to Mill Barn$\|to Mill Barn$'
 from order import *
 order(1, "A", ["Well", "Mill", "Barn"])
 instant(50, "cancelOrder", "c1")                                # it stands in the crossing, and has said why: when the way is free it leaves it

@@ -1,4 +1,4 @@
-# RUN: kbc experiment --out %t/results --scenarios 2 --labyrinths 2 --seed 3 --mind %d/nowhere.kb
+# RUN LONG: kbc experiment --out %t/results --scenarios 2 --labyrinths 2 --seed 3 --mind %d/nowhere.kb
 # RUN: kbc experiment --out %t/results --scenarios 2 --labyrinths 2 --seed 3 --mind %d/broken.kb
 # RUN: kbc experiment --out %t/results --scenarios 2 --labyrinths 2 --seed 3 --mind %d/mapped.kb
 # RUN: kbc experiment --out %t/results --scenarios 2 --labyrinths 2 --seed 3 --mind %d/slow.kb=bug2

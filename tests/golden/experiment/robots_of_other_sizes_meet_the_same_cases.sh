@@ -1,3 +1,3 @@
-# RUN: printf 'import std.navigation\ncontrol Avoid = round_obstacle(distance: 0.2 m)\n' > %t/mine.kb; kbc experiment --out %t/mine --scenarios 2 --labyrinths 2 --mind %t/mine.kb --set robot.size=1,4
+# RUN LONG: printf 'import std.navigation\ncontrol Avoid = round_obstacle(distance: 0.2 m)\n' > %t/mine.kb; kbc experiment --out %t/mine --scenarios 2 --labyrinths 2 --mind %t/mine.kb --set robot.size=1,4
 # RUN: kbc experiment --out %t/sizes --scenarios 8 --labyrinths 2 --seed 3 --set robot.size=1,4 -q && sed 1d %t/sizes/runs.csv | cut -d, -f1-3,6-8,11,13
 # RUN: cd %t && kbc experiment --out files --scenarios 8 --labyrinths 2 --seed 3 --set robot.size=4 --show 5 && grep -n 'm/s' files/mission.kb && sed -n 's/metres = //p; s/limit = /limit /p' files/scenario.toml && kbc sim files/mission.kb --scenario files/scenario.toml --set robot.size=4 | head -1

@@ -1,1 +1,1 @@
-# RUN: kbc import nav2 ../../../data/layouts/nav2/aws_graph.geojson -w --route 31,34 -o %t/mission.kb && kbc sim %t/mission.kb
+# RUN LONG: kbc import nav2 ../../../data/layouts/nav2/aws_graph.geojson -w --route 31,34 -o %t/mission.kb && kbc sim %t/mission.kb
