@@ -7,6 +7,7 @@ if(WAYMARK_BUILD_COMPILER)
   find_package(tomlplusplus REQUIRED)
   find_package(Boost 1.74 REQUIRED)   # Boost.Graph and Boost.Geometry, headers only
   find_package(pugixml REQUIRED)
+  find_package(EXPAT REQUIRED)
   find_package(absl REQUIRED)         # short lists, and a flat hash table
 endif()
 if(WAYMARK_BUILD_TESTS)
