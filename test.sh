@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing and runs every test of the project. On a fresh Debian 12, as root or with sudo, nothing else is
-# needed. 20 to 27 minutes on two cores.
+# needed. Some 27 minutes on two cores.
 #
 #   ./test.sh                 all steps, those that fail fast first
 #   ./test.sh checks demo     only these; what they need must have been built
