@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <pugixml.hpp>
 #include <type_traits>
 #include <unordered_set>
@@ -43,14 +44,20 @@ std::string as_utf8(std::string_view bytes, pugi::xml_encoding encoding) {
   return pugi::as_utf8(out);
 }
 
-/// pugixml passes over much that XML forbids: an attribute twice, text behind the root, an entity that nobody has declared. So expat
-/// looks at it first.
-bool is_well_formed(std::string_view bytes, source::FileId file, diagnostics::Diagnostics& diagnostics) {
+struct Fault {
+  std::uint32_t at;   ///< offset in bytes
+  const char* what;
+};
+
+/// Where a file in UTF-8 stops being XML. pugixml passes over much that XML forbids: an attribute twice, text behind the root, an entity
+/// that nobody has declared. So expat looks at it as well.
+std::optional<Fault> find_fault(std::string_view bytes, const pugi::xml_parse_result& result) {
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(XML_ParserCreate("UTF-8"), &XML_ParserFree);
-  if (XML_Parse(parser.get(), bytes.data(), static_cast<int>(bytes.size()), XML_TRUE) != XML_STATUS_ERROR) return true;
-  const auto at = std::min(static_cast<std::uint32_t>(XML_GetCurrentByteIndex(parser.get())), static_cast<std::uint32_t>(bytes.size()));
-  diagnostics.report(Kind::kLayoutSyntax, {file, at, at + (at < bytes.size() ? 1U : 0U)}, {"XML", XML_ErrorString(XML_GetErrorCode(parser.get()))});
-  return false;
+  if (XML_Parse(parser.get(), bytes.data(), static_cast<int>(bytes.size()), XML_TRUE) == XML_STATUS_ERROR) {
+    return Fault{static_cast<std::uint32_t>(XML_GetCurrentByteIndex(parser.get())), XML_ErrorString(XML_GetErrorCode(parser.get()))};
+  }
+  if (!result) return Fault{static_cast<std::uint32_t>(result.offset), result.description()};
+  return std::nullopt;
 }
 
 class OpentcsReader {
@@ -182,14 +189,17 @@ std::optional<Layout> read_opentcs(source::Sources& sources, source::FileId file
   pugi::xml_document document;
   const auto load = [&](pugi::xml_encoding encoding) {
     const std::string_view bytes = sources.bytes(file);
-    return document.load_buffer(bytes.data(), bytes.size(), pugi::parse_default, encoding).encoding;
+    return document.load_buffer(bytes.data(), bytes.size(), pugi::parse_default, encoding);
   };
-  const pugi::xml_encoding encoding = load(pugi::encoding_auto);
-  if (encoding != pugi::encoding_utf8) {   // the library counts offsets in its own UTF-8 form of the file
-    file = sources.add(std::string(sources.path(file)), as_utf8(sources.bytes(file), encoding));
-    load(pugi::encoding_utf8);
+  pugi::xml_parse_result result = load(pugi::encoding_auto);
+  if (result.encoding != pugi::encoding_utf8) {   // the library counts offsets in its own UTF-8 form of the file
+    file = sources.add(std::string(sources.path(file)), as_utf8(sources.bytes(file), result.encoding));
+    result = load(pugi::encoding_utf8);
   }
-  if (!is_well_formed(sources.bytes(file), file, diagnostics)) return std::nullopt;
+  if (const std::optional<Fault> fault = find_fault(sources.bytes(file), result)) {
+    diagnostics.report(Kind::kLayoutSyntax, {file, fault->at, fault->at + 1}, {"XML", fault->what});
+    return std::nullopt;
+  }
   const pugi::xml_node model = document.child("model");
   if (!model) {
     diagnostics.report(Kind::kLayoutMissing, {file, 0, 0}, {"the file", "model"});
