@@ -225,13 +225,14 @@ void make_room(std::vector<T>& items, std::size_t more) {
 }
 
 /// The next combination of values, the last one fastest: `size(i)` is the number of values of the i-th. After the last combination comes
-/// the first.
+/// the first, and it returns false.
 template <class Size>
-void next_combination(std::vector<std::size_t>& places, Size size) {
+bool next_combination(std::vector<std::size_t>& places, Size size) {
   for (std::size_t i = places.size(); i-- > 0;) {
-    if (++places[i] < size(i)) return;
+    if (++places[i] < size(i)) return true;
     places[i] = 0;
   }
+  return false;
 }
 
 // ---- the steps of resolve, in order

@@ -1,6 +1,8 @@
 // Evaluating references in one instance of a rule.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compiler/diagnostics/display.h"
 #include "compiler/model/references.h"
 
@@ -61,7 +63,9 @@ Operand References::evaluate_field(std::uint32_t id, Environment values) {
     pattern.cached_relation = row.relation;
     pattern.cached_field = *place;
   }
-  return operand_of(draft_.model, draft_.model.fields(row)[pattern.cached_field]);
+  Operand operand = operand_of(draft_.model, draft_.model.fields(row)[pattern.cached_field]);
+  if (operand.kind == Operand::Kind::kMissing) missing_ = std::min(missing_, pattern.depends_on);
+  return operand;
 }
 
 Operand References::evaluate_argument(const Argument& argument, SetId set, std::string_view owner, bool table,

@@ -58,11 +58,13 @@ class RuleReader {
     make_room(draft_.model.conds, std::min(*count, kMaxRules));
     std::vector<std::size_t> at(ranges_.size(), 0);
     std::vector<Operand> values;
-    for (std::size_t i = 0; i < *count; ++i) {
+    for (bool more = *count > 0; more;) {
       values.clear();
       for (std::size_t b = 0; b < at.size(); ++b) values.push_back(ranges_[b].value(at[b]));
       if (!make_instance(tmpl, values, at)) return;
-      next_combination(at, [this](std::size_t b) { return ranges_[b].size(); });
+      // What is missing whatever the last variables are need not be tried with each of their values.
+      for (std::size_t b = references_.take_missing(); b < at.size(); ++b) at[b] = ranges_[b].size() - 1;
+      more = next_combination(at, [this](std::size_t b) { return ranges_[b].size(); });
     }
   }
 

@@ -40,6 +40,11 @@ std::optional<std::string_view> rows_written_in(std::string_view relation, std::
 }
 
 std::uint32_t References::add(Pattern pattern) {
+  if (pattern.op == Pattern::Op::kBinder) pattern.depends_on = pattern.binder + std::size_t{1};
+  if (pattern.op == Pattern::Op::kField) pattern.depends_on = patterns_[pattern.object].depends_on;
+  for (const Argument& argument : pattern.arguments) {
+    if (!argument.star) pattern.depends_on = std::max(pattern.depends_on, patterns_[argument.pattern].depends_on);
+  }
   patterns_.push_back(std::move(pattern));
   return static_cast<std::uint32_t>(patterns_.size() - 1);
 }

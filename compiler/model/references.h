@@ -2,7 +2,9 @@
 // can be checked without an instance. `evaluate` finds what a reference stands for in one instance.
 #pragma once
 
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "compiler/model/draft.h"
@@ -72,6 +74,10 @@ class References {
   std::uint32_t compile(syntax::RefId ref);
   /// What it stands for when the binders have these values.
   [[nodiscard]] Operand evaluate(std::uint32_t pattern, Environment values);
+  /// Of the fields found missing since the last call, the one that the fewest variables decide: how many, from the first. Whatever
+  /// values the others have, it is missing. kAllBinders if none was.
+  [[nodiscard]] std::size_t take_missing() { return std::exchange(missing_, kAllBinders); }
+  static constexpr std::size_t kAllBinders = std::numeric_limits<std::size_t>::max();
   /// Does it stand for the same in all instances?
   [[nodiscard]] bool constant(std::uint32_t pattern) const { return patterns_[pattern].op == Pattern::Op::kConstant; }
   [[nodiscard]] const Operand& value(std::uint32_t pattern) const { return patterns_[pattern].constant; }
@@ -100,6 +106,7 @@ class References {
     source::Span span;
     Operand constant;                 ///< kConstant
     std::uint32_t binder = 0;         ///< kBinder
+    std::size_t depends_on = 0;       ///< so many binders, from the first
     std::uint32_t object = 0;         ///< kField
     syntax::Name field;
     RelationId relation = RelationId::kNone;  ///< of the row that it stands for, if that is known beforehand
@@ -142,6 +149,7 @@ class References {
   std::vector<Binder>& binders_;
   std::string_view rule_;
   std::vector<Pattern> patterns_;
+  std::size_t missing_ = kAllBinders;
 };
 
 }  // namespace kb::model

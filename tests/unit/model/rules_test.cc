@@ -109,6 +109,19 @@ TEST(Rows, ARelationOfOnesOwnHasRowsWrittenOut) {
   EXPECT_EQ(known.names(known.model().exclusive.back()), "P Pair.1");
 }
 
+TEST(Rows, WhatAFieldIsMissingForIsNotTriedWithTheOthers) {
+  const Known known = with("relation Pair(side, next)\nrow P in Pair(side: L, next: Q)\nrow Q in Pair(side: R)\nrow O in Pair(next: Q)\n"
+                           "rule first[a in Pair, b in Pair, c in Pair] at high when H[a.next.side] and H[b.side] and H[c.side] then +S\n"
+                           "rule last[a in Pair, b in Pair, c in Pair] at high when H[c.next.side] and H[b.side] and H[a.side] then +S\n"
+                           "rule both[a in Pair, b in Pair] at high when H[b.next.side] and H[a.next.next.side] then +S\n");
+  EXPECT_EQ(known.said(), "");
+  EXPECT_EQ(known.instances("first"), 8u);  // P and O, P and Q, P and Q
+  EXPECT_EQ(known.condition("first[O,Q,P]"), "and(H.R H.R H.L)");
+  EXPECT_EQ(known.instances("last"), 8u);
+  EXPECT_EQ(known.condition("last[P,Q,O]"), "and(H.R H.R H.L)");
+  EXPECT_EQ(known.instances("both"), 0u);
+}
+
 TEST(Rows, MistakesAreNamed) {
   const std::string relation = "relation Pair(left, side)\nrelation Far(cell) satellites of cell\n";
   EXPECT_TRUE(with(relation + "row in Pear(left: F)\n").said_only(Kind::kUnknownRelation));
