@@ -242,13 +242,13 @@ void declare_levels(Draft& draft);        // settings.cc
 void declare_all(Draft& draft);           // declare.cc: cells, groups, relations, maps, in order of the statements
 void declare_map(Draft& draft, const syntax::Map& map);   // maps.cc
 void choose_exits(Draft& draft);          // maps.cc: which sets name the exits and the methods of roads
-void finish_maps(Draft& draft);           // maps.cc
 void declare_prototypes(Draft& draft);    // prototypes.cc
 void declare_sensors(Draft& draft);       // sensors.cc
 void declare_fuzzy(Draft& draft);         // fuzzy.cc
 void declare_tables(Draft& draft);        // tables.cc
 void apply_settings(Draft& draft);        // settings.cc
 void plan_routes(Draft& draft);           // routes.cc
+void report_islands(Draft& draft);        // islands.cc
 void write_rows(Draft& draft);            // rows.cc
 void plan_detours(Draft& draft);          // detours.cc: planned ones, then written ones
 void attach_satellites(Draft& draft);     // attention.cc: `of X`, and rows `satellites of f`

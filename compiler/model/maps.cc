@@ -318,13 +318,4 @@ void forget_roads(Draft& draft) {
   draft.graph.reset();
 }
 
-void finish_maps(Draft& draft) {
-  draft.legs_from.resize(draft.landmarks.size());
-  for (const LandmarkInfo& landmark : draft.landmarks) {
-    if (landmark.in > 0 || draft.broken_maps[landmark.map] || draft.model.maps[landmark.map].landmarks.size() < 2) continue;
-    const Row& row = draft.model[landmark.row];
-    draft.diagnostics.report(Kind::kUnreachedLandmark, row.declared, {row.name});
-  }
-}
-
 }  // namespace kb::model

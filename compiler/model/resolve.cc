@@ -11,9 +11,9 @@ Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, Stand
   draft.library = standard;
   draft.first_leg = first_leg;
   constexpr void (*kSteps[])(Draft&) = {
-      declare_levels,  declare_sets,    declare_all,    finish_maps,       declare_prototypes,
+      declare_levels,  declare_sets,    declare_all,    declare_prototypes,
       declare_sensors, declare_fuzzy,   declare_tables, apply_settings,    plan_routes,
-      write_rows,      plan_detours,    attach_satellites, read_perception, order_perception,
+      report_islands, write_rows,      plan_detours,    attach_satellites, read_perception, order_perception,
       resolve_kept_conditions,          forget_roads,   expand_rules,   order_strategies,  bind_controllers,
   };
   for (const auto step : kSteps) {

@@ -293,6 +293,7 @@ std::uint32_t add_chain(Draft& draft, std::uint32_t route, const std::vector<std
 }
 
 void plan_routes(Draft& draft) {
+  draft.legs_from.resize(draft.landmarks.size());
   draft.each<syntax::Route>([&](const auto&, const auto&, const syntax::Route& route) {
     if (!draft.exhausted) RouteReader(draft, route).run();
   });
