@@ -106,7 +106,6 @@ Budget budget(const Tables& tables, const program::Program& program) {
   b.atoms = n.atoms;
   b.nodes = n.nodes;
   b.timers = n.timers;
-  b.most_rules = n.rules;  // each rule is evaluated at most once at its level
   b.counted = counted_rules(tables, program);
   b.most_awake = most_awake(tables, program);
   return b;

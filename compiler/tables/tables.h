@@ -43,9 +43,8 @@ struct Budget {
   std::size_t fuzzy_table_bytes = 0;  ///< of all fuzzy controllers, read-only
   std::size_t fuzzy_stack_bytes = 0;  ///< temporary stack of evaluating the largest one by its tables
   std::uint32_t facts = 0, satellites = 0, strategies = 0, rules = 0, atoms = 0, nodes = 0, timers = 0;
-  std::uint32_t most_rules = 0;       ///< upper bound of the rules that one tick can evaluate
   std::uint32_t counted = 0;          ///< rules whose condition is so long that a node counts the parts that hold
-  std::uint32_t most_awake = 0;       ///< how many of `most_rules` can be awake at once (exclusive groups counted once)
+  std::uint32_t most_awake = 0;       ///< how many of `rules` can be awake at once (exclusive groups counted once)
 };
 [[nodiscard]] Budget budget(const Tables& tables, const program::Program& program);
 

@@ -31,7 +31,6 @@ std::string print_json(const tables::Budget& b) {
                                          {"atoms", b.atoms},
                                          {"nodes", b.nodes},
                                          {"timers", b.timers},
-                                         {"most_rules", b.most_rules},
                                          {"most_awake", b.most_awake},
                                          {"counted", b.counted},
                                          {"perception_table_bytes", b.perception_table_bytes},
@@ -67,7 +66,6 @@ std::string print_text(const tables::Budget& b) {
   line("atoms", b.atoms, "different conditions on single cells, a bit each");
   line("nodes", b.nodes, "conditions put together of others");
   line("timers", b.timers, "different `for` conditions");
-  line("rules a tick", b.most_rules, "can be evaluated in one tick, at most");
   line("rules awake", b.most_awake, "can be awake at once, exclusive groups counted once");
   line("rules counted", b.counted, "have so long a condition that what holds of it is counted; the others sleep under a key");
   return out;
