@@ -119,6 +119,20 @@ int unknown_command(std::string_view word) {
   return usage_error(message, nullptr);
 }
 
+/// The first word that `command` has no place for.
+std::string unexpected(const CLI::App& command) {
+  const std::string word = command.remaining(true).front();
+  if (!word.starts_with('-')) return diagnostics::quoted_code(word) + " is one argument too many";
+  const std::string name = word.substr(0, word.find('='));
+  std::string message = "there is no option " + diagnostics::quoted_code(name);
+  std::vector<std::string> options;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& known : option->get_lnames()) options.push_back("--" + known);
+  }
+  if (const auto better = diagnostics::closest(name, std::vector<std::string_view>(options.begin(), options.end()))) message += "; did you mean `" + *better + "`?";
+  return message;
+}
+
 // `kbc help` and `kbc help COMMAND`, as users of git may write it.
 int help(const CommandLine& line, int argc, char** argv) {
   if (argc < 3 || argv[2][0] == '-') {
@@ -207,6 +221,8 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
   if (argc >= 2 && begun == nullptr && argv[1][0] != '-') return unknown_command(argv[1]);
   try {
     line.app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    return usage_error(unexpected(begun == nullptr ? line.app : *begun->app), begun);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return printed(line.app.exit(error));   // --help, --version
     const std::string empty = begun == nullptr ? "" : left_empty(*begun->app, words);   // being empty is why it is no duration, no number, ...
