@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <compare>
 #include <map>
 #include <set>
 #include <span>
 #include <tuple>
 
+#include "compiler/analysis/definitions.h"
 #include "compiler/fuzzy/certainty.h"
 
 namespace kb::analysis {
@@ -20,27 +21,7 @@ using program::Percept;
 using program::PerceptId;
 using program::Program;
 
-constexpr std::size_t kMostTerms = Confusions::kMostConjunctions;
 constexpr std::size_t kGrid = 400;
-
-/// A reading compared with a prototype or a text, or a fact that the host gives.
-struct Literal {
-  bool given = false;
-  std::uint32_t subject = 0;     // reading, or cell
-  std::uint32_t prototype = 0;
-  std::string text;
-  bool negated = false;
-  friend auto operator<=>(const Literal&, const Literal&) = default;
-};
-using Conjunction = std::vector<Literal>;
-using Disjunction = std::vector<Conjunction>;
-
-/// The definition of a fact, or of its opposite, as an `or` of `and`s; `cut`: it has more of them than are looked at.
-struct Definition {
-  Disjunction terms;
-  bool cut = false;
-  friend auto operator<=>(const Definition&, const Definition&) = default;
-};
 
 /// The highest certainty that one reading can give to all of some literals at once, and at which value.
 struct Best { double degree = -2.0; std::string where; };
@@ -57,81 +38,8 @@ struct Curve {
 }  // namespace
 
 struct Confusions::Impl {
-  explicit Impl(const Program& p) : program(p) {
-    for (std::size_t i = 0; i < p.perception.perceived.size(); ++i) place.emplace(p.perception.perceived[i].fact, i);
+  explicit Impl(const Program& p) : program(p), definitions(p) {
     readings.reserve(p.perception.perceived.size());
-  }
-
-  /// Recurses as deep as a definition nests. The definitions of the facts in it are known already: see `definition`.
-  Disjunction expand(PerceptId id, bool negated) {
-    const Percept& percept = program.perception[id];
-    switch (percept.op) {
-      case Percept::Op::kFits: return {{{false, percept.reading, percept.prototype, {}, negated}}};
-      case Percept::Op::kReads: return {{{false, percept.reading, 0, percept.text, negated}}};
-      case Percept::Op::kFact: {
-        const auto known = place.find(percept.cell);
-        if (known == place.end()) return {{{true, static_cast<std::uint32_t>(index(percept.cell)), 0, {}, negated}}};
-        const Definition& part = *expanded.at({percept.cell, negated});
-        cut = cut || part.cut;
-        return part.terms;
-      }
-      case Percept::Op::kNot: return expand(percept.children.front(), !negated);
-      case Percept::Op::kAnd:
-      case Percept::Op::kOr: break;
-    }
-    const bool joins = (percept.op == Percept::Op::kOr) != negated;
-    Disjunction all = expand(percept.children.front(), negated);
-    for (std::size_t i = 1; i < percept.children.size(); ++i) {
-      const Disjunction part = expand(percept.children[i], negated);
-      if (joins) all.insert(all.end(), part.begin(), part.end());
-      else all = product(all, part);
-      if (all.size() > kMostTerms) {
-        all.resize(kMostTerms);
-        cut = true;
-      }
-    }
-    return all;
-  }
-
-  Disjunction product(const Disjunction& a, const Disjunction& b) {
-    Disjunction all;
-    for (const Conjunction& x : a) {
-      for (const Conjunction& y : b) {
-        if (all.size() == kMostTerms) {
-          cut = true;
-          return all;
-        }
-        all.push_back(x);
-        all.back().insert(all.back().end(), y.begin(), y.end());
-      }
-    }
-    return all;
-  }
-
-  using Polar = std::pair<CellId, bool>;   // a fact, or its opposite
-
-  /// The facts in a definition whose own definitions have not been found yet.
-  void find_parts(PerceptId id, bool negated, std::vector<Polar>& found) const {
-    const Percept& percept = program.perception[id];
-    if (percept.op == Percept::Op::kFact && place.contains(percept.cell) && !expanded.contains({percept.cell, negated})) found.emplace_back(percept.cell, negated);
-    for (const PerceptId child : percept.children) find_parts(child, negated != (percept.op == Percept::Op::kNot), found);
-  }
-
-  /// Facts may build on one another in long chains, so the parts of a definition are found first, without recursion.
-  const Definition& definition(CellId fact, bool negated) {
-    for (std::vector<Polar> todo{{fact, negated}}; !todo.empty();) {
-      const Polar one = todo.back();
-      const PerceptId percept = program.perception.perceived[place.at(one.first)].percept;
-      const std::size_t before = todo.size();
-      if (!expanded.contains(one)) find_parts(percept, one.second, todo);
-      if (todo.size() > before) continue;
-      todo.pop_back();
-      if (expanded.contains(one)) continue;
-      cut = false;
-      Disjunction terms = expand(percept, one.second);
-      expanded.emplace(one, &*definitions.insert({std::move(terms), cut}).first);
-    }
-    return *expanded.at({fact, negated});
   }
 
   /// Facts that are defined alike are compared once.
@@ -304,17 +212,47 @@ struct Confusions::Impl {
     return bound;
   }
 
+  /// Whether each `and` of `narrow` has a part for every part of some `and` of `wide` that is never more certain where it is likely.
+  bool follows(const Definition& narrow, const Definition& wide) {
+    const auto [known, fresh] = followed.try_emplace({&narrow, &wide});
+    if (!fresh) return known->second;
+    const auto serves = [&](const Conjunction& x, const Conjunction& y) {
+      return std::all_of(y.begin(), y.end(), [&](const Literal& of_wide) {
+        return std::any_of(x.begin(), x.end(), [&](const Literal& of_narrow) { return follows(of_narrow, of_wide); });
+      });
+    };
+    return known->second = std::all_of(narrow.terms.begin(), narrow.terms.end(), [&](const Conjunction& x) {
+      return std::any_of(wide.terms.begin(), wide.terms.end(), [&](const Conjunction& y) { return serves(x, y); });
+    });
+  }
+
+  bool follows(const Literal& narrow, const Literal& wide) {
+    if (narrow == wide) return true;
+    if (narrow.given != wide.given || narrow.given || narrow.subject != wide.subject) return false;
+    const program::Sensor& sensor = program.perception.sensor_of(narrow.subject);
+    if (sensor.text) return !narrow.negated && wide.negated && narrow.text != wide.text;
+    const auto [known, fresh] = below.try_emplace({sensor.first, narrow.prototype, narrow.negated, wide.prototype, wide.negated});
+    if (!fresh) return known->second;
+    std::vector<double> places = corners_of(std::array{narrow, wide}, sensor);
+    for (std::size_t i = 0; i <= kGrid; ++i) places.push_back(grid_place(sensor, i));
+    constexpr double kRounding = 1e-9;
+    return known->second = std::all_of(places.begin(), places.end(), [&](double anywhere) {
+      const double x = std::clamp(anywhere, sensor.low, sensor.high), cf = at(narrow, sensor, x);
+      return cf <= 0.0 || cf <= at(wide, sensor, x) + kRounding;
+    });
+  }
+
   void collect(PerceptId id, std::set<std::uint32_t>& found) const {
     const Percept& percept = program.perception[id];
     for (const PerceptId child : percept.children) collect(child, found);
     if (percept.op == Percept::Op::kFits || percept.op == Percept::Op::kReads) found.insert(percept.reading);
     if (percept.op != Percept::Op::kFact) return;
-    if (const auto known = place.find(percept.cell); known != place.end()) found.insert(readings[known->second].begin(), readings[known->second].end());
+    if (const auto at = definitions.place(percept.cell)) found.insert(readings[*at].begin(), readings[*at].end());
   }
 
   /// The readings on which the fact depends. Facts stand after those that define them.
   const std::set<std::uint32_t>& readings_of(CellId fact) {
-    const std::size_t at = place.at(fact);
+    const std::size_t at = definitions.place(fact).value();
     while (readings.size() <= at) {
       std::set<std::uint32_t> found;
       collect(program.perception.perceived[readings.size()].percept, found);
@@ -324,35 +262,36 @@ struct Confusions::Impl {
   }
 
   const Program& program;
-  std::map<CellId, std::size_t> place;
-  std::set<Definition> definitions;                                      // each once
-  std::map<Polar, const Definition*> expanded;
+  Definitions definitions;
   std::map<std::tuple<const Definition*, const Definition*, double>, Best> compared;   // looked up, never iterated
+  std::map<std::pair<const Definition*, const Definition*>, bool> followed;             // looked up, never iterated
+  std::map<std::tuple<std::uint32_t, std::uint32_t, bool, std::uint32_t, bool>, bool> below;   // by sensor and two prototypes
   std::map<std::pair<std::uint32_t, std::uint32_t>, Curve> curves;   // by sensor and prototype
   std::vector<std::set<std::uint32_t>> readings;   // by perceived fact; filled when somebody asks
   std::map<std::uint32_t, std::vector<std::size_t>> made_of;   // by reading: perceived facts, as far as `sharing_before` has come
-  bool cut = false;              // the definition that is being expanded has more `and`s than are looked at
 };
 
 Confusions::Confusions(const Program& program) : impl_(std::make_unique<Impl>(program)) {}
 Confusions::~Confusions() = default;
 
 Confusion Confusions::between(CellId first, CellId second, double least) {
-  const Best& best = impl_->most(impl_->definition(first, false), impl_->definition(second, false), least);
+  const Best& best = impl_->most(impl_->definitions.of(first, false), impl_->definitions.of(second, false), least);
   return {first, second, best.degree, best.where};
 }
 
 Surest Confusions::surest(CellId fact, double enough) {
-  Best best = impl_->most(impl_->definition(fact, false).terms, Disjunction(1), {.enough = enough});
+  Best best = impl_->most(impl_->definitions.of(fact, false).terms, Disjunction(1), {.enough = enough});
   return {best.degree, std::move(best.where)};
 }
 
-double Confusions::apart(CellId yes, CellId no, double least) {
-  return impl_->most(impl_->definition(yes, false), impl_->definition(no, true), least).degree;
+bool Confusions::special_case(CellId narrow, CellId wide, double seen) {
+  if (impl_->definitions.built_on(narrow, wide)) return true;
+  if (!impl_->follows(impl_->definitions.of(narrow, false), impl_->definitions.of(wide, false))) return false;
+  return impl_->most(impl_->definitions.of(wide, false), impl_->definitions.of(narrow, true), seen).degree > seen;
 }
 
 bool Confusions::looked_into(CellId fact) {
-  return !impl_->definition(fact, false).cut;
+  return !impl_->definitions.of(fact, false).cut;
 }
 
 bool Confusions::share_readings(CellId first, CellId second) const {

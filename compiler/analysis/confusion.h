@@ -40,8 +40,9 @@ class Confusions {
   [[nodiscard]] Confusion between(program::CellId first, program::CellId second, double least = -2.0);
   /// The greatest certainty that the fact can have; or, if that is more than `enough`, some certainty above `enough` that it can have.
   [[nodiscard]] Surest surest(program::CellId fact, double enough);
-  /// The greatest certainty that `yes` can have while `no` is certainly not so to the same degree; `least` as above.
-  [[nodiscard]] double apart(program::CellId yes, program::CellId no, double least);
+  /// Whether `narrow` is a special case of `wide`: its definition speaks of `wide`; or `wide` is never less certain where `narrow` is
+  /// likely, and at some readings is seen, above the certainty `seen`, while `narrow` is as certainly not so.
+  [[nodiscard]] bool special_case(program::CellId narrow, program::CellId wide, double seen);
   /// A definition is written as an `or` of `and`s; at most so many of these are examined.
   static constexpr std::size_t kMostConjunctions = 512;
   /// Whether all `and`s of the fact's definition are examined.

@@ -49,7 +49,7 @@ Families families(const model::Model& model, const Program& program) {
 }
 
 /// See note [confusion]. A landmark counts as believed from the certainty that is enough for an awaited one. Two facts without a family
-/// are reported only if each can be seen without the other; otherwise one is a special case of the other, which is meant.
+/// are not reported if one is a special case of the other, which is meant.
 void diagnose_confusable(const model::Model& model, const Program& program, Confusions& confusions, Diagnostics& diagnostics) {
   const auto& perceived = program.perception.perceived;
   if (perceived.size() < 2) return;
@@ -73,7 +73,7 @@ void diagnose_confusable(const model::Model& model, const Program& program, Conf
       const Confusion found = confusions.between(a, b, believed);
       if (found.degree <= believed) continue;
       const bool meant = !landmarks && !family.share_group(a, b) &&
-                         (confusions.apart(a, b, x.attended) <= x.attended || confusions.apart(b, a, y.attended) <= y.attended);
+                         (confusions.special_case(a, b, y.attended) || confusions.special_case(b, a, x.attended));
       if (meant) continue;
       diagnostics.report(Kind::kConfusable, perceived[k].span, {program[a].name, program[b].name, fmt::format("{:.2f}", found.degree), found.readings})
           .note(Kind::kPerceivedHere, perceived[i].span, {program[a].name});
