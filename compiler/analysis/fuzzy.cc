@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "compiler/analysis/fuzzy_regions.h"
+#include "compiler/analysis/fuzzy_shadows.h"
 #include "compiler/analysis/subject.h"
 #include "compiler/fuzzy/interpret.h"
 
@@ -105,75 +104,15 @@ class FuzzyQuestions {
 
   // ---- rules that others make needless
 
-  using Parts = std::vector<std::uint32_t>;
-
-  /// The parts of a conjunction as text, so that they can be compared; recursion as deep as conditions nest.
-  void add_parts(std::uint32_t id, std::set<std::string>& to) const {
-    const Node& node = c_.nodes[id];
-    if (node.op != Node::Op::kAnd) {
-      to.insert(fuzzy::text(c_, id));
-      return;
-    }
-    add_parts(node.left, to);
-    add_parts(node.right, to);
-  }
-  [[nodiscard]] std::set<std::string> parts(const fuzzy::Rule& rule) const {
-    std::set<std::string> all;
-    add_parts(rule.condition, all);
-    for (std::uint32_t nest = rule.nest; nest != fuzzy::kNone; nest = c_.nests[nest].parent) add_parts(c_.nests[nest].condition, all);
-    return all;
-  }
-
-  /// By rule: its parts as numbers, ascending. The rarer a part, the lower its number.
-  [[nodiscard]] std::vector<Parts> numbered_parts() const {
-    std::vector<std::set<std::string>> texts;
-    std::map<std::string_view, std::uint32_t> uses;
-    for (const fuzzy::Rule& rule : c_.rules) texts.push_back(parts(rule));
-    for (const auto& of_rule : texts) {
-      for (const std::string& text : of_rule) ++uses[text];
-    }
-    std::vector<std::pair<std::uint32_t, std::string_view>> order;
-    for (const auto& [text, count] : uses) order.emplace_back(count, text);
-    std::sort(order.begin(), order.end());
-    for (std::uint32_t n = 0; n < order.size(); ++n) uses[order[n].second] = n;
-    std::vector<Parts> numbered;
-    for (const auto& of_rule : texts) {
-      Parts& numbers = numbered.emplace_back();
-      for (const std::string& text : of_rule) numbers.push_back(uses[text]);
-      std::sort(numbers.begin(), numbers.end());
-    }
-    return numbered;
-  }
-
-  /// A rule that shadows another has only parts that the other has too, so it can be looked up by its rarest part.
   void find_shadowed() {
-    const std::vector<Parts> of = numbered_parts();
-    std::map<std::uint32_t, std::vector<std::uint32_t>> by_rarest;   // by part: the earlier rules, ascending
-    for (std::uint32_t later = 0; later < of.size(); ++later) {
+    FuzzyShadows shadows(c_);
+    for (std::uint32_t later = 0; later < c_.rules.size(); ++later) {
       if (dead_.contains(later)) continue;
-      std::uint32_t by = later;   // the earliest rule that shadows it
-      for (const std::uint32_t part : of[later]) {
-        const auto& earlier = by_rarest[part];
-        const auto found = std::find_if(earlier.begin(), earlier.end(), [&](std::uint32_t first) { return first >= by || shadows(of, first, later); });
-        if (found != earlier.end()) by = std::min(by, *found);
-      }
-      by_rarest[of[later].front()].push_back(later);
-      if (by == later) continue;
-      diagnostics_.report(Kind::kFuzzyShadowedRule, c_.rules[later].span, {of[by] == of[later] ? "an earlier one has the same condition" : "an earlier, wider one is never weaker, and the strongest wins"})
-          .note(Kind::kFuzzyOtherRule, c_.rules[by].span, {fuzzy::text(c_, c_.rules[by])});
+      const auto by = shadows.next(later);
+      if (!by) continue;
+      diagnostics_.report(Kind::kFuzzyShadowedRule, c_.rules[later].span, {by->same ? "an earlier one has the same condition" : "an earlier, wider one is never weaker, and the strongest wins"})
+          .note(Kind::kFuzzyOtherRule, c_.rules[by->rule].span, {fuzzy::text(c_, c_.rules[by->rule])});
     }
-  }
-
-  /// Whether `first` writes every output that `later` writes, under the same condition or, if the strongest rule wins, a wider one.
-  [[nodiscard]] bool shadows(const std::vector<Parts>& of, std::uint32_t first, std::uint32_t later) const {
-    const fuzzy::Rule& a = c_.rules[first];
-    const fuzzy::Rule& b = c_.rules[later];
-    const bool same = of[first] == of[later];
-    if (!same && (a.weight < b.weight || !std::includes(of[later].begin(), of[later].end(), of[first].begin(), of[first].end()))) return false;
-    return std::all_of(b.consequents.begin(), b.consequents.end(), [&](const fuzzy::Consequent& one) {
-      const bool both = std::any_of(a.consequents.begin(), a.consequents.end(), [&](const auto& other) { return other.output == one.output; });
-      return both && (same || c_.outputs[one.output].combine == fuzzy::Combine::kWinner);
-    });
   }
 
   // ---- outputs that leave their range
