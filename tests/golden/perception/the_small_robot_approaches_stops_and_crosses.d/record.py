@@ -9,7 +9,8 @@
 
 What is wrong with the sensors, as on real robots: all are noisy and each has a rate of its own (line 10 Hz, range and tag 5 Hz,
 compass 2 Hz); line[1] is dead and reads 0; range[4] says nan now and then; range[3] stops speaking at 3 s, so its last reading
-grows old; the compass is silent from 7 s to 8 s; one line reading is out of range, one is infinite.
+grows old; the compass is silent from 7 s to 8 s; one line reading is out of range, one is infinite. No fact depends on that when it
+matters. Two faults do change facts: line[4] reads 0 from 5 s to 5.4 s, and range[1] is silent from 4.6 s to 5.2 s, while the box is there.
 
 Seeded: always the same bytes.
 """
@@ -31,7 +32,8 @@ def line(i, t):
         return "7.5"
     if i == 4 and abs(t - 1.5) < 0.01:
         return "inf"
-    return noisy(0.95 if on_line or i == 2 else 0.1, 0.02, 0, 1)
+    seen = noisy(0.95 if on_line or i == 2 else 0.1, 0.02, 0, 1)
+    return "0" if i == 4 and 5.0 <= t < 5.4 else seen
 
 
 def distance(i, t):
@@ -40,7 +42,8 @@ def distance(i, t):
     if i == 4 and random.random() < 0.1:
         return "nan"
     boxed = i in (0, 1, 7) and 4.2 <= t < 5.6
-    return noisy(0.2 if boxed else 2.5 if i in (0, 1, 7) else 0.6, 0.02, 0, 4)
+    seen = noisy(0.2 if boxed else 2.5 if i in (0, 1, 7) else 0.6, 0.02, 0, 4)
+    return "" if i == 1 and 4.6 <= t < 5.2 else seen
 
 
 def compass(t):
