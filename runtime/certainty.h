@@ -38,7 +38,7 @@
 
 namespace mts {
 
-/// |N computed - N| is at most this, for every prototype and every datum. See note [the error of N].
+/// |N computed - N| is at most this, for every prototype and every datum on a line. See note [the error of N], and for a circle `fit`.
 inline constexpr float kNecessityError = 1.2e-4f;
 
 namespace detail {
@@ -257,7 +257,9 @@ namespace detail {
 /// kNecessityError for straight flanks, N at most kNecessityError.
 ///
 /// On a circle the prototype may be met either way round; it counts as straight that way, so of one that is so broad that its flanks meet
-/// N is told without what they add up to there.
+/// N is told without what they add up to there. With p = mu where they meet, N is too small by at most p + kNecessityError: a crossing at
+/// p or above lies before that place and is found; below it, N is at most p. p is 1e-6 for a Gaussian of 34 deg, 1e-2 for one of 60 deg and
+/// 0.14 for one of 90 deg on 360 deg.
 /// Cost: 40 ns at most, 5 ns for a datum that is far off or well inside; on a circle as much again.
 [[nodiscard]] constexpr Fit fit(const Membership& prototype, float value, float spread) noexcept {
   if (!(spread > 0.0f)) {
