@@ -90,10 +90,14 @@ class FuzzyQuestions {
       return std::any_of(rule.consequents.begin(), rule.consequents.end(), [o](const auto& one) { return one.output == o; });
     });
     if (!written || output.fallback) return;   // an output with a default is meant to have gaps
-    const auto gap = regions_.gap(o);
-    if (!gap) return;
-    diagnostics_.report(Kind::kFuzzyGap, output.declared, {output.name, regions_.text(*gap), fmt::format("{}", output.default_value())})
-        .note(Kind::kFuzzyWitness, output.declared, {regions_.witness(*gap)});
+    const std::vector<Region> gaps = regions_.gaps(o);
+    if (gaps.empty()) return;
+    constexpr std::size_t kMostShown = 4;
+    std::string where;
+    for (std::size_t i = 0; i < std::min(gaps.size(), kMostShown); ++i) where += (i == 0 ? "" : ", or where ") + regions_.text(gaps[i]);
+    if (gaps.size() > kMostShown) where += ", or in other places";
+    diagnostics_.report(Kind::kFuzzyGap, output.declared, {output.name, where, fmt::format("{}", output.default_value())})
+        .note(Kind::kFuzzyWitness, output.declared, {regions_.witness(gaps.front())});
   }
 
   void find_dead(std::uint32_t r) {

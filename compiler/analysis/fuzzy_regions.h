@@ -10,7 +10,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,28 +17,39 @@
 
 namespace kb::analysis {
 
-/// A point, or an open interval, of one input on which all of its terms keep their state.
-struct Piece {
+/// A point, or an open interval.
+struct Stretch {
   double low = 0.0, high = 0.0;          ///< equal: a point
-  std::vector<std::uint8_t> states;      ///< by term: 0 not at all, 1 between, 2 completely
-  [[nodiscard]] double witness() const { return 0.5 * (low + high); }
+  [[nodiscard]] double middle() const { return 0.5 * (low + high); }
 };
 
-/// A result of the search: for each slot the piece that it must lie in; kNone where it does not matter.
-struct Region { std::vector<std::uint32_t> pieces; };
+/// All of one input's range on which its terms have the same states.
+struct Piece {
+  std::vector<Stretch> at;               ///< intervals before points, because they are better examples
+  std::vector<std::uint8_t> states;      ///< by term: 0 not at all, 1 between, 2 completely
+};
+
+/// A result of the search: for each slot the pieces that it may lie in, ascending; none where it does not matter.
+struct Region {
+  std::vector<std::vector<std::uint32_t>> pieces;
+  friend bool operator==(const Region&, const Region&) = default;
+};
+
+/// The places where the state of a shape changes; of smooth shapes, where it is 1 or becomes 0 in float.
+void add_corners(const fuzzy::Shape& shape, std::vector<double>& to);
 
 class FuzzyRegions {
  public:
   explicit FuzzyRegions(const fuzzy::Controller& controller);
 
-  /// A region where no rule that writes `output` fires.
-  [[nodiscard]] std::optional<Region> gap(std::uint32_t output);
+  /// Regions where no rule that writes `output` fires. Empty only if there is none, or if the search was given up.
+  [[nodiscard]] std::vector<Region> gaps(std::uint32_t output);
   /// Whether the rule fires anywhere.
   [[nodiscard]] bool fires(std::uint32_t rule);
-  /// The search was given up because it cost too much; `gap` then found nothing, and `fires` answered true.
+  /// A search was given up because it cost too much; `gaps` then found not all, and `fires` answered true.
   [[nodiscard]] bool gave_up() const { return gave_up_; }
 
-  /// "`bearing` is in (45, 90) deg and `free[0]` is 0.5", and a point of it: "bearing = 67.5 deg, free[0] = 0.5".
+  /// "`bearing` lies between 45 and 90 deg and `free[0]` is 0.5", and a point of it: "bearing = 67.5 deg, free[0] = 0.5".
   [[nodiscard]] std::string text(const Region& region) const;
   [[nodiscard]] std::string witness(const Region& region) const;
 
@@ -52,7 +62,9 @@ class FuzzyRegions {
   [[nodiscard]] std::uint32_t open_slot(std::uint32_t node) const;
   [[nodiscard]] std::uint32_t open_slot(const fuzzy::Rule& rule) const;
   [[nodiscard]] const std::vector<Piece>& pieces_of(std::uint32_t slot) const { return pieces_[input_of_slot(c_, slot)]; }
-  bool search_gap(const std::vector<std::uint32_t>& writers);
+  void search_gaps(const std::vector<std::uint32_t>& writers, std::vector<Region>& found);
+  [[nodiscard]] Region widest(const std::vector<std::uint32_t>& writers);
+  void join(std::vector<Region>& regions) const;
   bool search_fire(const fuzzy::Rule& rule);
   [[nodiscard]] bool none_fires(const std::vector<std::uint32_t>& writers) const;
   [[nodiscard]] bool spend();
@@ -60,7 +72,7 @@ class FuzzyRegions {
   const fuzzy::Controller& c_;
   std::vector<std::vector<Piece>> pieces_;   // by input
   std::vector<Known> unset_;                 // by degree: over all pieces
-  Region set_;
+  std::vector<std::uint32_t> set_;           // by slot: its piece, kNone if it is not set
   std::size_t steps_ = 0;
   bool gave_up_ = false;
 };
