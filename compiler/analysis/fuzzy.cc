@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -140,37 +141,92 @@ class FuzzyQuestions {
 
   /// Whether an output may leave its range at all: only sums, and values that depend on inputs, can.
   [[nodiscard]] bool may_leave(const std::set<std::uint32_t>& said) const {
-    for (const fuzzy::Rule& rule : c_.rules) {
-      for (const fuzzy::Consequent& one : rule.consequents) {
-        const fuzzy::Output& output = c_.outputs[one.output];
-        if (output.circular || said.contains(one.output)) continue;
-        if (output.combine == fuzzy::Combine::kSum || !one.linear.empty()) return true;
-      }
-    }
-    return false;
+    return std::any_of(c_.rules.begin(), c_.rules.end(), [&](const fuzzy::Rule& rule) {
+      return std::any_of(rule.consequents.begin(), rule.consequents.end(), [&](const fuzzy::Consequent& one) { return may_leave(one, said); });
+    });
   }
 
-  /// Tries the corners of the inputs' ranges and points between them. Every report is real, but not every case is found.
+  /// Whether the output may leave its range through this rule.
+  [[nodiscard]] bool may_leave(const fuzzy::Consequent& one, const std::set<std::uint32_t>& said) const {
+    const fuzzy::Output& output = c_.outputs[one.output];
+    return !output.circular && !said.contains(one.output) && (output.combine == fuzzy::Combine::kSum || !one.linear.empty());
+  }
+
+  /// In [0, 1).
+  double random() {
+    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(state_ >> 40) / static_cast<double>(1u << 24);
+  }
+
+  /// Tries the corners of the inputs' ranges, points between them, and the terms of each rule. Every report is real, but not every case
+  /// is found.
   void sample(std::set<std::uint32_t>& said) {
     constexpr std::uint32_t kPoints = 3'000, kMostCorners = 10;
     const std::uint32_t corners = c_.slots <= kMostCorners ? 1u << c_.slots : 0;
-    std::uint64_t state = 1;
     std::vector<double> x(c_.slots);
     for (std::uint32_t n = 0; n < corners + kPoints && said.size() < c_.outputs.size(); ++n) {
       for (std::uint32_t slot = 0; slot < c_.slots; ++slot) {
         const fuzzy::Input& input = c_.inputs[input_of_slot(c_, slot)];
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        const double share = n < corners ? ((n >> slot) & 1u) : static_cast<double>(state >> 40) / static_cast<double>(1u << 24);
+        const double chance = random(), share = n < corners ? ((n >> slot) & 1u) : chance;
         x[slot] = input.low + share * (input.high - input.low);
       }
-      const auto outcome = fuzzy::interpret(c_, x);
-      for (std::uint32_t o = 0; o < c_.outputs.size(); ++o) {
-        const fuzzy::Output& output = c_.outputs[o];
-        const double slack = 1e-6 * (output.high - output.low), v = outcome.before[o];
-        if (output.circular || said.contains(o) || (v >= output.low - slack && v <= output.high + slack)) continue;
-        said.insert(o);
-        diagnostics_.report(Kind::kFuzzyExcess, output.declared, {output.name, fmt::format("{:.6g}", v), range(output), "at " + point(x)});
+      look_at(x, said);
+    }
+    const auto tries = std::clamp<std::size_t>(kPoints / c_.rules.size(), 4, 64);
+    for (const fuzzy::Rule& rule : c_.rules) sample_terms(rule, tries, said);
+  }
+
+  /// A narrow term is missed by points that are spread over the range.
+  void sample_terms(const fuzzy::Rule& rule, std::size_t tries, std::set<std::uint32_t>& said) {
+    if (std::none_of(rule.consequents.begin(), rule.consequents.end(), [&](const auto& one) { return may_leave(one, said); })) return;
+    std::map<std::uint32_t, std::vector<double>> places;   // by slot
+    note_places(rule.condition, places);
+    for (std::uint32_t nest = rule.nest; nest != fuzzy::kNone; nest = c_.nests[nest].parent) note_places(c_.nests[nest].condition, places);
+    std::vector<double> x(c_.slots);
+    for (std::size_t n = 0; n < tries; ++n) {
+      for (std::uint32_t slot = 0; slot < c_.slots; ++slot) {
+        const fuzzy::Input& input = c_.inputs[input_of_slot(c_, slot)];
+        const auto known = places.find(slot);
+        const double chance = random();
+        if (known == places.end()) x[slot] = input.low + std::round(4.0 * chance) / 4.0 * (input.high - input.low);
+        else x[slot] = known->second[static_cast<std::size_t>(chance * static_cast<double>(known->second.size()))];
       }
+      look_at(x, said);
+    }
+  }
+
+  /// The corners of the terms that a condition asks for, and the middles between them. Recursion as deep as conditions nest.
+  void note_places(std::uint32_t id, std::map<std::uint32_t, std::vector<double>>& to) const {
+    const Node& node = c_.nodes[id];
+    if (node.op != Node::Op::kDegree) {
+      note_places(node.left, to);
+      if (node.right != fuzzy::kNone) note_places(node.right, to);
+      return;
+    }
+    const fuzzy::Degree& degree = c_.degrees[node.degree];
+    const fuzzy::Input& input = c_.inputs[degree.input];
+    std::vector<double> corners;
+    add_corners(c_.shape_of(degree), corners);
+    for (double& x : corners) {
+      if (input.circular && std::fabs(x) < 1e300) x = fuzzy::wrapped(x, input.low, input.high - input.low);
+      x = std::clamp(x, input.low, input.high);
+    }
+    if (corners.empty()) corners = {input.low, input.high};
+    std::vector<double>& places = to[degree.slot];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      places.push_back(corners[i]);
+      places.push_back(0.5 * (corners[i] + corners[(i + 1) % corners.size()]));
+    }
+  }
+
+  void look_at(const std::vector<double>& x, std::set<std::uint32_t>& said) {
+    const auto outcome = fuzzy::interpret(c_, x);
+    for (std::uint32_t o = 0; o < c_.outputs.size(); ++o) {
+      const fuzzy::Output& output = c_.outputs[o];
+      const double slack = 1e-6 * (output.high - output.low), v = outcome.before[o];
+      if (output.circular || said.contains(o) || (v >= output.low - slack && v <= output.high + slack)) continue;
+      said.insert(o);
+      diagnostics_.report(Kind::kFuzzyExcess, output.declared, {output.name, fmt::format("{:.6g}", v), range(output), "at " + point(x)});
     }
   }
 
@@ -187,6 +243,7 @@ class FuzzyQuestions {
   diagnostics::Diagnostics& diagnostics_;
   FuzzyRegions regions_;
   std::set<std::uint32_t> dead_;
+  std::uint64_t state_ = 1;   // of `random`
 };
 
 }  // namespace
