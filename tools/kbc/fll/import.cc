@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "compiler/fuzzy/controller.h"
 #include "tools/kbc/fll/import_parts.h"
@@ -275,11 +276,16 @@ class Writer {
   }
 
   bool write_conclusions(const Line& line, const std::vector<std::string_view>& parts, std::string& text) {
+    std::set<const Variable*> given;
     for (std::size_t i = 0; i <= parts.size(); i += 4) {
       const bool whole = i + 2 < parts.size() && parts[i + 1] == "is" && (i + 3 == parts.size() || parts[i + 3] == "and");
       const Variable* output = whole ? engine_.variables.find(parts[i]) : nullptr;
       if (output == nullptr || !output->output) {
         refuse(line, "a conclusion is `output is term`, without hedges, joined by `and`");
+        return false;
+      }
+      if (!given.insert(output).second) {
+        refuse(line, fmt::format("it gives `{}` two values", output->name));
         return false;
       }
       const Term* const term = output->terms.find(parts[i + 2]);

@@ -132,6 +132,7 @@ bool Reader::boolean(const Line& line) {
 }
 
 void Reader::take(const Line& line) {
+  if (line.key == "InputVariable" || line.key == "OutputVariable" || line.key == "RuleBlock") told_.clear();
   if (line.key == "Engine") {
     section_ = Section::kEngine;
     if (!engine_.name.empty()) return refuse(line, "a second engine");
@@ -160,6 +161,7 @@ void Reader::take(const Line& line) {
     if (!boolean(line) && section_ != Section::kNone) refuse(line, "a part that is switched off would be on here; remove it");
     return;
   }
+  if (line.key != "term" && line.key != "rule" && !told_.insert(line.key).second) return refuse(line, fmt::format("a second `{}`", line.key));
   switch (section_) {
     case Section::kVariable: return engine_.variables.back().output ? take_output(engine_.variables.back(), line) : take_input(engine_.variables.back(), line);
     case Section::kBlock: return take_block(engine_.blocks.back(), line);

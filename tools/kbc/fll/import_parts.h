@@ -99,6 +99,7 @@ class Reader {
   diagnostics::Diagnostics& diagnostics_;
   std::size_t at_ = 0;
   enum class Section : std::uint8_t { kNone, kEngine, kVariable, kBlock } section_ = Section::kNone;
+  std::set<std::string_view> told_;   ///< the keys of this variable or block, except those that may stand in it several times
   Engine engine_;
   bool good_ = true, begun_ = false;
 };
