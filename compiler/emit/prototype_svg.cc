@@ -19,6 +19,15 @@ constexpr int kPoints = 280;
 
 Frame panel_at(double y, double low, double high, double bottom) { return {kX, y, kWidth, kHeight, low, high, bottom, 1.0}; }
 
+// The smallest of 1, 2, 5, 10, ... and their tenths that is not below `least`.
+double round_step(double least) {
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (digit * power >= least * (1.0 - 1e-9)) return digit * power;
+  }
+  return 10.0 * power;
+}
+
 class PrototypeDrawing {
  public:
   PrototypeDrawing(const fuzzy::Shape& shape, const PrototypePicture& picture) : shape_(shape), p_(picture) {}
@@ -45,9 +54,9 @@ class PrototypeDrawing {
   void stroke(double x1, double y1, double x2, double y2) { svg_.line(x1, y1, x2, y2, "#bbbbbb"); }
   void draw_axes(const Frame& panel, std::string_view title, std::string_view below) {
     words(kX, panel.y - 10, "start", title, "#000000");
-    for (int i = 0; i <= 4; ++i) {
-      const double v = panel.low + (panel.high - panel.low) * i / 4;
-      words(panel.px(v), panel.y + kHeight + 17, "middle", fmt::format("{:.4g}", v));
+    const double step = round_step((panel.high - panel.low) / 5), nearly = 1e-6;
+    for (double i = std::ceil(panel.low / step - nearly) + 0.0; i <= panel.high / step + nearly; ++i) {
+      words(panel.px(i * step), panel.y + kHeight + 17, "middle", fmt::format("{:.4g}", i * step));
     }
     for (int i = 0; i <= 2; ++i) {
       const double v = panel.bottom + (panel.top - panel.bottom) * i / 2;

@@ -91,7 +91,7 @@ bool choose(const PlotOptions& options, const fuzzy::Controller& c, emit::FuzzyP
   return false;
 }
 
-// Draws a prototype with which a fact compares a sensor of numbers, found by the prototype's text and, if `--of` names one, the sensor.
+// Draws a prototype with which a fact compares a sensor of numbers, found by the prototype's text and, if `--of` names one, the sensor or its reading.
 int plot_prototype(const PlotOptions& options, const program::Perception& perception, Session& session, diagnostics::Diagnostics& diagnostics) {
   std::vector<std::string_view> candidates;
   for (const program::Percept& percept : perception.percepts) {
@@ -99,7 +99,8 @@ int plot_prototype(const PlotOptions& options, const program::Perception& percep
     const program::Sensor& sensor = perception.sensor_of(percept.reading);
     const program::Prototype& prototype = perception.prototypes[percept.prototype];
     candidates.push_back(prototype.text);
-    if ((!options.controller.empty() && prototype.text != options.controller) || (!options.of.empty() && sensor.name != options.of)) continue;
+    const bool meant = options.of.empty() || options.of == sensor.name || options.of == perception.reading_name(percept.reading);
+    if (!meant || (!options.controller.empty() && prototype.text != options.controller)) continue;
     return session.deliver(options.output,
                    emit::print_prototype_svg(prototype.shape, {sensor.name, prototype.text, sensor.unit, sensor.low, sensor.high, sensor.noise,
                                                                sensor.stale_s.value_or(0.0), sensor.growth}));
@@ -131,7 +132,7 @@ Run setup_plot(CLI::App& app) {
   app.add_option("NAME", options->controller, "The name of the controller, needed if there are several, or of the prototype (the first)");
   auto* x = app.add_option("--x", options->x, "The input along the horizontal axis (the first); without --y the output is drawn as a curve")->type_name("INPUT");
   auto* y = app.add_option("--y", options->y, "The input along the vertical axis (the second)")->type_name("INPUT");
-  app.add_option("--of", options->of, "The output to draw (the first); for a prototype, the sensor")->type_name("OUTPUT");
+  app.add_option("--of", options->of, "The output to draw (the first); for a prototype, the sensor or its reading")->type_name("OUTPUT");
   auto* at = app.add_option("--at", options->at, "The value of an input that is not drawn, in SI units, angles in degrees (the middle of its range); may be given often")->type_name("INPUT=NUMBER");
   app.add_option("-o,--output", options->output, "Write to this file, as SVG")->type_name("FILE")->check(is_svg());
   app.callback([options, x, y, at] {
