@@ -188,7 +188,7 @@ class LanePort {
         if (!memory_.test(at, p_.timers[i].on)) continue;
         const bool over = memory_.test(at, p_.timers[i].over);
         s.timer_state[i] = over ? kTimerDone : kTimerWaits;
-        if (over) engine.flip(K::kShape.atoms - K::kShape.nodes - K::kShape.timers + i);
+        if (over) engine.flip(K::kShape.first_timer() + i);
         else engine.link_since(i, began_us(at, i, K::kTables.timers[i].queue));
       }
     }

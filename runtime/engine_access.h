@@ -149,7 +149,7 @@ template <class S, class T>
 inline TimerState Engine<S, T>::state_of(std::uint32_t timer) const {
   if constexpr (kCompact) {
     if (bits::test(s.waiting, timer)) return kTimerWaits;
-    return truth(shape().atoms - shape().nodes - shape().timers + timer) ? kTimerDone : kTimerOff;
+    return truth(shape().first_timer() + timer) ? kTimerDone : kTimerOff;
   } else {
     return static_cast<TimerState>(s.timer_state[timer]);
   }

@@ -162,7 +162,7 @@ inline float Engine<S, T>::degree(std::uint32_t root) const {
   struct Frame { float value; J node, child; };
   Frame stack[kStackDepth];
   std::uint32_t depth = 0;
-  const std::uint32_t first_node = shape().atoms - shape().nodes;
+  const std::uint32_t first_node = shape().first_node();
   const auto leaf = [&](std::uint32_t l) { return (l & 1u) != 0 || (l >> 1) < first_node; };
   std::uint32_t l = root;
   for (;;) {

@@ -190,7 +190,7 @@ template <class S, class T>
 
 template <class S, class T>
 inline void Engine<S, T>::settle_node_word(std::uint32_t word) {
-  const std::uint32_t first_atom = shape().atoms - shape().nodes;
+  const std::uint32_t first_atom = shape().first_node();
   while (s.node_set[word] != 0) {
     const std::uint32_t n = word * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_set[word]));
     s.node_set[word] &= s.node_set[word] - 1u;

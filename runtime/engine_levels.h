@@ -267,7 +267,7 @@ template <class S, class T>
   }
   set_state(timer, kTimerOff);
   if (state == kTimerWaits) unlink(timer);
-  else flip(shape().atoms - shape().nodes - shape().timers + timer);
+  else flip(shape().first_timer() + timer);
 }
 
 /// For each stage of the level: looks at the timers whose condition has changed, then at those that are due.
@@ -303,7 +303,7 @@ inline void Engine<S, T>::expire(const Stage<J>& stage) {
       const std::uint32_t timer = s.queue_head[q] - 1u;
       unlink(timer);
       set_state(timer, kTimerDone);
-      flip(shape().atoms - shape().nodes - shape().timers + timer);
+      flip(shape().first_timer() + timer);
     }
   }
 }

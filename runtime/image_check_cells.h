@@ -7,13 +7,7 @@
 
 namespace mts::image {
 
-/// Atoms in order: the two constants, then those of the cells, cell by cell, then timers, then nodes.
-template <class Ix>
-[[nodiscard]] std::uint32_t first_timer(const Subject<Ix>& s) { return s.n().atoms - s.n().nodes - s.n().timers; }
-template <class Ix>
-[[nodiscard]] std::uint32_t first_node(const Subject<Ix>& s) { return s.n().atoms - s.n().nodes; }
-
-/// Checks the atoms of one cell after another: those that are not 0 must be the next ones in some order, each once.
+/// Atoms in order: the two constants, then those of the cells, cell by cell, then timers, then nodes. Checks those of one cell after another: those that are not 0 must be the next ones in some order, each once.
 struct NextAtoms {
   std::uint32_t next;
   std::uint32_t count = 0, seen = 0;
@@ -47,7 +41,7 @@ bool atoms_fit(const Subject<Ix>& s) {
     }
     if (!atoms.close()) return false;
   }
-  return atoms.next == first_timer(s);
+  return atoms.next == s.n().first_timer();
 }
 
 /// A fact comes into view above `plain` and stays in view above `attended`: 0 <= attended <= plain <= 1.
@@ -83,7 +77,7 @@ template <class Ix>
 /// that hold at start-up. `scratch` by node: first how many of its parts hold, then how many it has.
 template <class Ix>
 ImageStatus nodes_fit(const Subject<Ix>& s) {
-  const std::uint32_t base = first_node(s);
+  const std::uint32_t base = s.n().first_node();
   ImageStatus status = ImageStatus::kOk;
   for (std::uint32_t a = 0; a < s.n().atoms && status == ImageStatus::kOk; ++a) {
     for (std::uint32_t i = s.t.atoms[a].parents; i < s.t.atoms[a + 1].parents; ++i) {
@@ -118,7 +112,7 @@ ImageStatus nodes_fit(const Subject<Ix>& s) {
 /// again, could make a tick take years. `scratch` by node: its steps so far.
 template <class Ix>
 bool walks_fit(const Subject<Ix>& s) {
-  const std::uint32_t base = first_node(s);
+  const std::uint32_t base = s.n().first_node();
   const std::uint64_t limit = std::uint64_t{kMaxDepth} * s.h.bytes, most = limit < 0xFFFF'FFFFu ? limit : 0xFFFF'FFFFu;
   bool good = true;
   for (std::uint32_t a = 0; a < s.n().atoms; ++a) {
@@ -164,7 +158,7 @@ bool timers_fit(const Subject<Ix>& s) {
 /// node: one more than the last stage of the timers in it.
 template <class Ix>
 bool timers_are_ordered(const Subject<Ix>& s) {
-  const std::uint32_t base = first_node(s), timers = first_timer(s);
+  const std::uint32_t base = s.n().first_node(), timers = s.n().first_timer();
   const auto tell_parents = [&](std::uint32_t atom, Word stage) {
     for (std::uint32_t i = s.t.atoms[atom].parents; i < s.t.atoms[atom + 1].parents; ++i) {
       Word& last = s.scratch[s.t.parents[i] >> 1];
@@ -261,7 +255,7 @@ bool initial_fits(const Subject<Ix>& s) {
       if (sighting != 0 && bits::test(truth, sighting)) return false;
     }
   }
-  for (std::uint32_t a = first_timer(s); a < first_node(s); ++a) {
+  for (std::uint32_t a = s.n().first_timer(); a < s.n().first_node(); ++a) {
     if (bits::test(truth, a)) return false;
   }
   return true;

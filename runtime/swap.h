@@ -210,7 +210,7 @@ class Transplant {
   template <class F>
   void timers(F& lost) {
     const std::uint32_t m = old_.tables.shape.timers, n = new_.tables.shape.timers;
-    const std::uint32_t first = new_.tables.shape.atoms - new_.tables.shape.nodes - n;
+    const std::uint32_t first = new_.tables.shape.first_timer();
     std::uint32_t k = 0;
     for (std::uint32_t i = 0; i < m; ++i) {
       const std::uint32_t x = old_.names.timer_order[i];

@@ -67,8 +67,7 @@ void recall_origins(Tables& t) {
     put(t.fact_atoms[c].event, AtomOrigin::Kind::kEvent, program::Term::kHigh, c);
     put(t.fact_atoms[c].lost, AtomOrigin::Kind::kLost, program::Term::kHigh, c);
   }
-  const I first_node = t.shape.atoms - t.shape.nodes;
-  for (I a = first_node - t.shape.timers; a < t.shape.atoms; ++a) t.origins[a].kind = a < first_node ? AtomOrigin::Kind::kTimer : AtomOrigin::Kind::kNode;
+  for (I a = t.shape.first_timer(); a < t.shape.atoms; ++a) t.origins[a].kind = a < t.shape.first_node() ? AtomOrigin::Kind::kTimer : AtomOrigin::Kind::kNode;
 }
 
 void recall_keys(Tables& t) {

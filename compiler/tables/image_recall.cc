@@ -40,13 +40,12 @@ class Conditions {
   [[nodiscard]] const std::vector<I>& parts_of_node(I node) const { return parts_[node]; }
 
  private:
-  [[nodiscard]] I first_node() const { return t_.shape.atoms - t_.shape.nodes; }
   [[nodiscard]] std::vector<I> parts_of(I atom) const {
-    if (t_.origins[atom].kind == AtomOrigin::Kind::kNode) return parts_[atom - first_node()];
+    if (t_.origins[atom].kind == AtomOrigin::Kind::kNode) return parts_[atom - t_.shape.first_node()];
     if (t_.origins[atom].kind == AtomOrigin::Kind::kTimer) return {timer(atom).input};
     return {};
   }
-  [[nodiscard]] const mts::Timer<I>& timer(I atom) const { return t_.timers[atom - (first_node() - t_.shape.timers)]; }
+  [[nodiscard]] const mts::Timer<I>& timer(I atom) const { return t_.timers[atom - t_.shape.first_timer()]; }
   CondId known(I literal) { return (literal & 1u) != 0 ? pool_.negation(known_[literal >> 1]) : known_[literal >> 1]; }
 
   CondId make(I atom) {
@@ -62,8 +61,8 @@ class Conditions {
       case AtomOrigin::Kind::kNode: break;
     }
     std::vector<CondId> parts;
-    for (const I part : parts_[atom - first_node()]) parts.push_back(known(part));
-    return t_.nodes[atom - first_node()].need == parts.size() ? pool_.all_of(parts) : pool_.any_of(parts);
+    for (const I part : parts_[atom - t_.shape.first_node()]) parts.push_back(known(part));
+    return t_.nodes[atom - t_.shape.first_node()].need == parts.size() ? pool_.all_of(parts) : pool_.any_of(parts);
   }
 
   Tables& t_;
@@ -174,12 +173,11 @@ class Recall {
 
   /// Finds the satellites of a strategy: they are the only positive part of its rule, one satellite or an `or` of several.
   void wanted_by(I r, CellId strategy) {
-    const I first_node = t_.shape.atoms - t_.shape.nodes;
     for (I i = t_.rules[r].conditions; i < t_.rules[r + 1].conditions; ++i) {
       const I literal = t_.conditions[i];
       if ((literal & 1u) != 0) continue;
-      const bool node = literal >> 1 >= first_node;
-      for (const I part : node ? conditions_.parts_of_node((literal >> 1) - first_node) : std::vector<I>{literal}) {
+      const bool node = literal >> 1 >= t_.shape.first_node();
+      for (const I part : node ? conditions_.parts_of_node((literal >> 1) - t_.shape.first_node()) : std::vector<I>{literal}) {
         const AtomOrigin& o = t_.origins[part >> 1];
         const bool satellite = o.kind == AtomOrigin::Kind::kTerm && index(o.cell) >= t_.shape.facts && index(o.cell) < t_.shape.facts + t_.shape.satellites;
         if (satellite) p_.cells[index(strategy)].satellites.push_back(o.cell);

@@ -38,7 +38,7 @@ class Keys {
   Hash of_atom(I atom) {
     Hash& known = known_[atom];
     if (known != 0) return known;
-    const I first_node = t_.shape.atoms - t_.shape.nodes, first_timer = first_node - t_.shape.timers;
+    const I first_node = t_.shape.first_node(), first_timer = t_.shape.first_timer();
     if (atom >= first_node) return known = of_node(atom - first_node);
     if (atom >= first_timer) return known = of_timer(atom - first_timer);
     const AtomOrigin& o = t_.origins[atom];
