@@ -253,7 +253,7 @@ void diagnose_controllers(Subject& subject, const std::vector<bool>& driven) {
   const Program& program = subject.program;
   for (const bool library : {false, true}) {
     std::vector<CellId> missing;
-    for (std::uint32_t i = program.facts + program.satellites; i < program.cells.size(); ++i) {
+    for (std::uint32_t i = program.first_strategy(); i < program.cells.size(); ++i) {
       const bool here = subject.in_library(program.cells[i].declared) == library;
       if (here && !driven[i] && !never_wanted(subject, CellId{i})) missing.push_back(CellId{i});
     }

@@ -72,8 +72,8 @@ class ConflictQuestions {
 
   void run() {
     contested_.resize(program_.cells.size() + program_.exclusive.size());
-    for (std::uint32_t begin = 0, end = 0; begin < program_.rules.size(); begin = end) {
-      while (end < program_.rules.size() && program_.rules[end].level == program_.rules[begin].level) ++end;
+    for (std::uint32_t level = 0; level < program_.levels.size(); ++level) {
+      const auto [begin, end] = program::rules_of(program_, level);
       search_level(begin, end);
     }
     for (const auto& [families, finding] : found_) report(finding);

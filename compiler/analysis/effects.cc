@@ -262,7 +262,7 @@ void diagnose_late(Subject& subject) {
 std::optional<CellId> undone(const Subject& subject, const Demands& demands, const Rule& rule) {
   const Program& program = subject.program;
   const auto firing = static_cast<float>(program.settings.firing);
-  for (const Demand& demand : demands.each) {
+  for (const Restriction& demand : demands.each) {
     if (demand.variable >= program.cells.size()) break;
     const CellId cell{demand.variable};
     const auto written = program::net_value(program, subject.group_of, rule, cell);

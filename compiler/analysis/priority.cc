@@ -1,4 +1,6 @@
 // Reports pairs of strategies that can be wanted at once and that no `priority` line settles.
+#include <boost/dynamic_bitset.hpp>
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -19,12 +21,7 @@ using program::Program;
 constexpr std::size_t kMaxPairsAsked = 8192;
 constexpr std::size_t kShown = 4;
 
-/// A set of strategies, one bit each.
-using Set = std::vector<std::uint64_t>;
-
-void unite(Set& to, const Set& from) {
-  for (std::size_t w = 0; w < to.size(); ++w) to[w] |= from[w];
-}
+using Set = boost::dynamic_bitset<>;   // of strategies
 
 class PriorityQuestions {
  public:
@@ -32,7 +29,7 @@ class PriorityQuestions {
       : subject_(subject),
         program_(subject.program),
         exclusive_(exclusive_at_all_times(program_)),
-        first_(program_.facts + program_.satellites),
+        first_(program_.first_strategy()),
         count_(program_.cells.size() - first_) {
     for (std::uint32_t i = 0; i < count_; ++i) {
       const bool same = i > 0 && strategy(i).declared == strategy(i - 1).declared;
@@ -51,8 +48,7 @@ class PriorityQuestions {
       const std::uint32_t a = node(program_.priority[i]);
       for (std::size_t j = i + 1; j < program_.priority.size(); ++j) {
         const std::uint32_t b = node(program_.priority[j]);
-        const bool settled = ((below_[a][b / 64] >> (b % 64)) & 1) != 0;
-        if (!settled && unit_[a] != unit_[b] && wanted_together(a, b)) note(a, b);
+        if (!below_[a][b] && unit_[a] != unit_[b] && wanted_together(a, b)) note(a, b);
       }
     }
     report();
@@ -89,7 +85,7 @@ class PriorityQuestions {
 
   /// Finds which strategies come after each one, beginning with the last in priority: then all that a line puts after a strategy are done.
   void find_settled(const std::vector<model::Precedence>& lines) {
-    const Set none((count_ + 63) / 64, 0);
+    const Set none(count_);
     below_.assign(count_, none);
     std::vector<Set> below_line(lines.size());   // each is filled when first needed
     std::vector<Nodes> lines_of(count_);
@@ -105,11 +101,11 @@ class PriorityQuestions {
           after = none;
           for (const model::CellId cell : lines[line].after) {
             const std::uint32_t later = node_of(cell);
-            unite(after, below_[later]);
-            after[later / 64] |= std::uint64_t{1} << (later % 64);
+            after |= below_[later];
+            after.set(later);
           }
         }
-        unite(below_[node(*at)], after);
+        below_[node(*at)] |= after;
       }
     }
   }

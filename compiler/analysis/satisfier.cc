@@ -76,8 +76,8 @@ void Satisfier::find_timed_events() {
   for (std::uint32_t i = 0; i < program_.conds.size(); ++i) {
     const Cond& cond = program_.conds[i];
     if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
-    const std::vector<Demand> each = demands(cond.children.front(), 0).each;
-    const bool moment = std::any_of(each.begin(), each.end(), [&](const Demand& demand) {
+    const std::vector<Restriction> each = demands(cond.children.front(), 0).each;
+    const bool moment = std::any_of(each.begin(), each.end(), [&](const Restriction& demand) {
       const bool sighting = demand.variable >= sightings && demand.variable < sightings + program_.facts;
       return sighting && (demand.allowed == kJustSeen || demand.allowed == kJustLost);
     });
@@ -360,7 +360,7 @@ Demands Satisfier::demands(CondId condition, std::uint32_t level, std::size_t mo
       demands.holders.push_back({choice, holder_[choice]});
     }
   }
-  const auto by_variable = [](const Demand& a, const Demand& b) { return a.variable < b.variable; };
+  const auto by_variable = [](const Restriction& a, const Restriction& b) { return a.variable < b.variable; };
   std::sort(demands.each.begin(), demands.each.end(), by_variable);
   demands.each.erase(std::unique(demands.each.begin(), demands.each.end()), demands.each.end());
   std::sort(demands.holders.begin(), demands.holders.end(),
@@ -377,8 +377,8 @@ bool compatible(const Demands& a, const Demands& b) {
     j += y.choice <= x.choice ? 1 : 0;
   }
   for (std::size_t i = 0, j = 0; i < a.each.size() && j < b.each.size();) {
-    const Demand& x = a.each[i];
-    const Demand& y = b.each[j];
+    const Restriction& x = a.each[i];
+    const Restriction& y = b.each[j];
     if (x.variable == y.variable && (x.allowed & y.allowed) == 0) return false;
     i += x.variable <= y.variable ? 1 : 0;
     j += y.variable <= x.variable ? 1 : 0;

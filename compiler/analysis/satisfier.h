@@ -26,10 +26,10 @@ struct Goal {
 };
 
 /// What a condition demands of one variable (a cell, a sighting, a timer), whatever the other variables are.
-struct Demand {
+struct Restriction {
   std::uint32_t variable = 0;
   std::uint8_t allowed = 0;
-  friend bool operator==(const Demand&, const Demand&) = default;
+  friend bool operator==(const Restriction&, const Restriction&) = default;
 };
 /// A condition demands that `variable` is the one member of `choice` (an exclusive group) that is high, or seen.
 struct Holder {
@@ -37,7 +37,7 @@ struct Holder {
   std::uint32_t variable = 0;
 };
 struct Demands {
-  std::vector<Demand> each;     ///< ascending by variable
+  std::vector<Restriction> each;  ///< ascending by variable
   std::vector<Holder> holders;  ///< ascending by choice
   bool possible = true;         ///< false: they contradict each other
 };

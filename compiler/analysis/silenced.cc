@@ -69,7 +69,7 @@ class SilencedQuestions {
   [[nodiscard]] std::vector<std::size_t> awaited(const Demands& demands) const {
     const std::size_t cells = program_.cells.size();
     std::vector<std::size_t> facts;
-    for (const Demand& demand : demands.each) {
+    for (const Restriction& demand : demands.each) {
       const bool sighting = demand.variable >= cells;
       const std::size_t fact = sighting ? demand.variable - cells : demand.variable;
       if (fact < program_.facts && (demand.allowed & ~(sighting ? kSeen : regions_of(program::Term::kHigh))) == 0) facts.push_back(fact);

@@ -68,7 +68,6 @@ class ByFamily {
       entry.finding = std::move(finding);
     }
   }
-  [[nodiscard]] std::uint32_t count(std::uint32_t family) const { return found_[family].count; }
   /// `f(rule, finding, count)`, in the order of the rules.
   template <class F>
   void for_each(F&& f) const {

@@ -19,6 +19,7 @@ struct CppInput {
   const tables::Tables& tables;
   const CppOptions& options;
   Names names;
+  std::vector<FuzzyNames> fuzzy_names;
 };
 
 /// "std::uint16_t" or "std::uint32_t".
@@ -51,9 +52,7 @@ void emit_numbers(std::string& out, std::string_view type, std::string_view name
   out += "};\n\n";
 }
 
-void emit_enumerations(const CppInput& in, std::string& out);
 void emit_facts(const CppInput& in, std::string& out);
-void emit_knowledge(const CppInput& in, std::string& out);
 void emit_controllers(const CppInput& in, std::string& out);
 /// The class of each fuzzy controller, and what it computes: the tables and, where it is faster, straight C++.
 void emit_fuzzy(const CppInput& in, std::string& out);

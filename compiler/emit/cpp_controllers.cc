@@ -27,21 +27,6 @@ struct Controller {
   const FuzzyNames* fuzzy = nullptr;  ///< a fuzzy controller: it has its own type and takes no arguments
 };
 
-/// `follow_line` -> `FollowLine`.
-std::string type_name(std::string_view name) {
-  std::string out;
-  bool up = true;
-  for (const char c : name) {
-    if (c == '_') {
-      up = true;
-      continue;
-    }
-    out += up && c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    up = false;
-  }
-  return out;
-}
-
 void add_field(Controller& controller, const Control::Argument& argument) {
   auto field = std::find_if(controller.fields.begin(), controller.fields.end(), [&](const auto& f) {
     return f.argument == argument.name && f.is_number == argument.is_number && f.unit == argument.unit;
@@ -60,7 +45,7 @@ void add_field(Controller& controller, const Control::Argument& argument) {
   }
 }
 
-std::vector<Controller> collect(const CppInput& in, const std::vector<FuzzyNames>& fuzzy) {
+std::vector<Controller> collect(const CppInput& in) {
   std::vector<Controller> controllers;
   std::map<std::string, std::size_t> known;
   for (const Control& control : in.program.controls) {
@@ -69,14 +54,14 @@ std::vector<Controller> collect(const CppInput& in, const std::vector<FuzzyNames
     Controller& controller = controllers[at->second];
     controller.drives.emplace_back(in.program[control.strategy].name);
     if (control.fuzzy != fuzzy::kNone) {
-      controller.fuzzy = &fuzzy[control.fuzzy];
+      controller.fuzzy = &in.fuzzy_names[control.fuzzy];
       continue;
     }
     for (const Control::Argument& argument : control.arguments) add_field(controller, argument);
   }
   Scope methods{"run", "idle", "sense"};
   Scope types = type_scope();
-  for (const FuzzyNames& names : fuzzy) static_cast<void>(types.make(names.type));
+  for (const FuzzyNames& names : in.fuzzy_names) static_cast<void>(types.make(names.type));
   for (Controller& controller : controllers) {
     controller.method = methods.make(controller.source_name);
     if (controller.fuzzy != nullptr) continue;
@@ -164,7 +149,7 @@ void demand_functions(const CppInput& in, const std::vector<Controller>& control
     if (of[s] != nullptr) continue;
     fmt::format_to(Out(out), "  static_assert(requires {{ controllers.run(Run<Strategy::{}>{{}}); }}, \"no `run(Run<Strategy::{}>)`: no `control` line names a controller for {}\");\n",
                    in.names.strategies[s], in.names.strategies[s],
-                   in.program.cells[in.program.facts + in.program.satellites + s].name);
+                   in.program.cells[in.program.first_strategy() + s].name);
   }
 }
 
@@ -190,12 +175,11 @@ void emit_cases(const CppInput& in, const std::vector<Controller>& controllers, 
 }  // namespace
 
 void emit_controllers(const CppInput& in, std::string& out) {
-  const std::vector<FuzzyNames> fuzzy = make_fuzzy_names(in.program);
-  const std::vector<Controller> controllers = collect(in, fuzzy);
+  const std::vector<Controller> controllers = collect(in);
   emit_structs(controllers, out);
   Lines of(in.program.strategies, nullptr);
   for (const Control& control : in.program.controls) {
-    of[index(control.strategy) - in.program.facts - in.program.satellites] = &control;
+    of[index(control.strategy) - in.program.first_strategy()] = &control;
   }
   out +=
       "/// Stands for a strategy that no `control` line gives a controller: the host's own.\n"

@@ -3,7 +3,6 @@
 // note [why straight code is quick].
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 #include <vector>
 
@@ -35,9 +34,8 @@ class StraightCode {
     emit_degrees(fuzzy::kNone);
     emit_steps();
     std::size_t voice = 0;
-    const auto voices = std::count(layout_.listed.begin(), layout_.listed.end(), true);
     for (std::size_t o = 0; o < c_.outputs.size(); ++o) {
-      const std::string from = layout_.listed[o] ? fmt::format("mts::FuzzyVoices<{}>{{firings, kSaid + {}}}", voices, voice++) : fmt::format("to_{}", o);
+      const std::string from = layout_.listed[o] ? fmt::format("mts::FuzzyVoices<{}>{{firings, kSaid + {}}}", layout_.voices(), voice++) : fmt::format("to_{}", o);
       fmt::format_to(Out(out_), "  out.{} = mts::conclude({}, kOutputs[{}], out.status);\n", names_.outputs[o], from, o);
     }
     out_ += "  return out;\n}\n\n";
@@ -84,7 +82,7 @@ class StraightCode {
   }
 
   void declare_outputs() {
-    if (std::count(layout_.listed.begin(), layout_.listed.end(), true) != 0) {
+    if (layout_.voices() != 0) {
       fmt::format_to(Out(out_), "  mts::FuzzyFiring fired[{}];\n  mts::FuzzyFirings firings{{fired}};\n", c_.rules.size() + 1);
     }
     for (std::size_t o = 0; o < c_.outputs.size(); ++o) {
@@ -324,7 +322,7 @@ class StraightCode {
 // ---- the constants of straight code
 
 void emit_said(const fuzzy::Controller& c, const tables::FuzzyForm& form, const tables::FuzzyLayout& layout, std::string& out) {
-  if (std::count(layout.listed.begin(), layout.listed.end(), true) == 0) return;
+  if (layout.voices() == 0) return;
   out += "// What each rule says of each output that is read from the list of rules.\nconstexpr mts::FuzzySaid kSaid[] = {\n";
   for (std::size_t s = 0; s < form.steps.size(); ++s) {
     if (form.steps[s].skip != 0) continue;

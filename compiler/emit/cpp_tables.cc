@@ -106,15 +106,15 @@ class TablesPrinter {
 
   void timers() {
     array(generic("Node"), "kNodes", t_.nodes.size(), [&](std::size_t n) {
-      const std::size_t a = t_.shape.atoms - t_.shape.nodes + n;
+      const std::size_t a = t_.shape.first_node() + n;
       return fmt::format("{{{}}},  // {}", t_.nodes[n].need, tables::atom_name(t_, in_.program, static_cast<std::uint32_t>(a)));
     });
     array(generic("Timer"), "kTimers", t_.timers.size(), [&](std::size_t i) {
-      const std::size_t a = t_.shape.atoms - t_.shape.nodes - t_.shape.timers + i;
+      const std::size_t a = t_.shape.first_timer() + i;
       return fmt::format("{{{}, {}}},  // {}", literal(t_.timers[i].input), t_.timers[i].queue,
                          tables::atom_name(t_, in_.program, static_cast<std::uint32_t>(a)));
     });
-    numbers("std::uint32_t", "kQueueMicroseconds", t_.queue_us);
+    numbers("std::uint32_t", "kQueueUs", t_.queue_us);
     array(generic("Stage"), "kStages", t_.stages.size(), [&](std::size_t i) {
       const auto& x = t_.stages[i];
       return fmt::format("{{{}, {}, {}, {}}},", x.first_timer, x.end_timer, x.first_queue, x.end_queue);
@@ -195,50 +195,10 @@ class TablesPrinter {
     line("    .idle = mts::Idle::{},", idle[static_cast<std::size_t>(t_.idle)]);
     line("    .idle_strategy = {},", t_.idle_strategy);
     line("    .hold_limit_us = {},", t_.hold_limit_us);
-    pointers();
+    tables::for_each_array(t_, [this](const char* name, const auto& values) {
+      line("    .{} = {},", name, values.empty() ? "nullptr" : "k" + type_name(name));
+    });
     line("}};\n");
-  }
-
-  /// In the order of the members of mts::Tables.
-  void pointers() {
-    const auto pointer = [&](std::string_view field, std::string_view name, bool empty) {
-      line("    .{} = {},", field, empty ? std::string_view("nullptr") : name);
-    };
-    pointer("atoms", "kAtoms", t_.atoms.empty());
-    pointer("readers", "kReaders", t_.readers.empty());
-    pointer("parents", "kParents", t_.parents.empty());
-    pointer("timer_inputs", "kTimerInputs", t_.timer_inputs.empty());
-    pointer("broad", "kBroad", t_.broad.empty());
-    pointer("cell_atoms", "kCellAtoms", t_.cell_atoms.empty());
-    pointer("fact_atoms", "kFactAtoms", t_.fact_atoms.empty());
-    pointer("attends_begin", "kAttendsBegin", t_.attends_begin.empty());
-    pointer("attends", "kAttends", t_.attends.empty());
-    pointer("nodes", "kNodes", t_.nodes.empty());
-    pointer("timers", "kTimers", t_.timers.empty());
-    pointer("queue_us", "kQueueMicroseconds", t_.queue_us.empty());
-    pointer("stages", "kStages", t_.stages.empty());
-    pointer("levels", "kLevels", t_.levels.empty());
-    pointer("rules", "kRules", t_.rules.empty());
-    pointer("word_rule", "kWordRule", t_.word_rule.empty());
-    pointer("while_rules", "kWhileRules", t_.while_rules.empty());
-    pointer("reset_rules", "kResetRules", t_.reset_rules.empty());
-    pointer("conditions", "kConditions", t_.conditions.empty());
-    pointer("writes", "kWrites", t_.writes.empty());
-    pointer("clears", "kClears", t_.clears.empty());
-    pointer("values", "kValues", t_.values.empty());
-    pointer("group_of", "kGroupOf", t_.group_of.empty());
-    pointer("group_slot", "kGroupSlot", t_.group_slot.empty());
-    pointer("group_begin", "kGroupBegin", t_.group_begin.empty());
-    pointer("priority", "kPriority", t_.priority.empty());
-    pointer("initial", "kInitial", t_.initial.empty());
-    pointer("keep", "kKeep", t_.keep.empty());
-    pointer("initial_truth", "kInitialTruth", t_.initial_truth.empty());
-    pointer("initial_count", "kInitialCount", t_.initial_count.empty());
-    pointer("child_begin", "kChildBegin", t_.child_begin.empty());
-    pointer("children", "kChildren", t_.children.empty());
-    pointer("is_and", "kIsAnd", t_.is_and.empty());
-    pointer("atom_cell", "kAtomCell", t_.atom_cell.empty());
-    pointer("atom_term", "kAtomTerm", t_.atom_term.empty());
   }
 
   const CppInput& in_;
@@ -246,16 +206,18 @@ class TablesPrinter {
   std::string& out_;
 };
 
-void texts(std::string& out, std::string_view type, std::string_view variable, const std::vector<std::string>& names) {
+/// `items`: things with a name.
+template <class Items>
+void texts(std::string& out, std::string_view type, std::string_view variable, const Items& items) {
   fmt::format_to(Out(out), "const char* name({} {}) {{\n", type, variable);
-  if (names.empty()) {
+  if (items.empty()) {
     fmt::format_to(Out(out), "  static_cast<void>({});\n  return \"\";\n}}\n\n", variable);
     return;
   }
   out += "  static constexpr const char* kNames[] = {\n";
-  for (const std::string& name : names) fmt::format_to(Out(out), "      \"{}\",\n", name);
+  for (const auto& item : items) fmt::format_to(Out(out), "      \"{}\",\n", item.name);
   fmt::format_to(Out(out), "  }};\n  const auto i = static_cast<std::uint32_t>({});\n  return i < {} ? kNames[i] : \"?\";\n}}\n\n", variable,
-                 names.size());
+                 items.size());
 }
 
 }  // namespace
@@ -263,18 +225,11 @@ void texts(std::string& out, std::string_view type, std::string_view variable, c
 void emit_tables(const CppInput& in, std::string& out) { TablesPrinter(in, out).print(); }
 
 void emit_texts(const CppInput& in, std::string& out) {
-  std::vector<std::string> facts, satellites, strategies, rules;
-  for (const program::Cell& cell : in.program.cells) {
-    (cell.kind == program::CellKind::kFact        ? facts
-     : cell.kind == program::CellKind::kSatellite ? satellites
-                                                  : strategies)
-        .emplace_back(cell.name);
-  }
-  for (const program::Rule& rule : in.program.rules) rules.emplace_back(rule.name);
-  texts(out, "Fact", "fact", facts);
-  texts(out, "Satellite", "satellite", satellites);
-  texts(out, "Strategy", "strategy", strategies);
-  texts(out, "Rule", "rule", rules);
+  using program::CellKind;
+  texts(out, "Fact", "fact", in.program.cells_of(CellKind::kFact));
+  texts(out, "Satellite", "satellite", in.program.cells_of(CellKind::kSatellite));
+  texts(out, "Strategy", "strategy", in.program.cells_of(CellKind::kStrategy));
+  texts(out, "Rule", "rule", in.program.rules);
 }
 
 }  // namespace kb::emit

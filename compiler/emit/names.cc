@@ -99,17 +99,18 @@ std::string beside_tables(std::string name) {
 
 Names make_names(const program::Program& program, const tables::Tables& tables) {
   Names names;
-  Scope facts{"store", "set", "get", "clear"}, satellites, strategies, rules;
   Scope atoms{"Atom", "Decision", "Fact", "Facts", "Index", "Knowledge", "Mind", "Perception", "Readings", "Rule", "Run", "Satellite",
               "Senses", "Strategy", "drive", "name", "no", "yes"};   // names in the same scope
-  for (const program::Cell& cell : program.cells) {
-    switch (cell.kind) {
-      case program::CellKind::kFact: names.facts.push_back(facts.make(cell.name)); break;
-      case program::CellKind::kSatellite: names.satellites.push_back(satellites.make(cell.name)); break;
-      case program::CellKind::kStrategy: names.strategies.push_back(strategies.make(cell.name)); break;
-    }
-  }
-  for (const program::Rule& rule : program.rules) names.rules.push_back(rules.make(rule.name));
+  const auto identifiers = [](Scope scope, const auto& items) {
+    std::vector<std::string> made;
+    for (const auto& item : items) made.push_back(scope.make(item.name));
+    return made;
+  };
+  using program::CellKind;
+  names.facts = identifiers(Scope{"store", "set", "get", "clear"}, program.cells_of(CellKind::kFact));
+  names.satellites = identifiers(Scope{}, program.cells_of(CellKind::kSatellite));
+  names.strategies = identifiers(Scope{}, program.cells_of(CellKind::kStrategy));
+  names.rules = identifiers(Scope{}, program.rules);
   for (std::uint32_t a = 0; a < tables.origins.size(); ++a) {
     names.atoms.push_back(atoms.make(beside_tables(atom_text(program, tables, a))));
   }
@@ -123,7 +124,7 @@ std::string plane_text(const program::Program& program, const tables::FleetForm&
     const std::string bit = form.satellites[plane.of].bits > 1 ? " bit " + std::to_string(plane.bit) : "";
     return std::string(program.cells[program.facts + plane.of].name) + bit;
   };
-  const auto strategy = [&] { return std::string(program.cells[program.facts + program.satellites + plane.of].name); };
+  const auto strategy = [&] { return std::string(program.cells[program.first_strategy() + plane.of].name); };
   switch (plane.kind) {
     case Kind::kHigh: return fact();
     case Kind::kLow: return fact() + " is low";
@@ -175,6 +176,20 @@ FleetNames make_fleet_names(const program::Program& program, const tables::Fleet
     if (names.steps[i].empty()) names.steps[i] = scope.make("x" + std::to_string(i));
   }
   return names;
+}
+
+std::string type_name(std::string_view name) {
+  std::string out;
+  bool up = true;
+  for (const char c : name) {
+    if (c == '_') {
+      up = true;
+      continue;
+    }
+    out += up && c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    up = false;
+  }
+  return out;
 }
 
 std::string unit_suffix(std::string_view unit) {

@@ -20,24 +20,9 @@ double highest(Holds holds) {
   return low;
 }
 
-// The fit on a line.
-Fit straight_fit(const Shape& shape, double d, double spread) {
-  Fit fit;
-  fit.possibility = highest([&](double level) {
-    const Cut c = cut(shape, level);
-    const double r = spread * reach(level);
-    return d + r >= c.low && d - r <= c.high;
-  });
-  fit.necessity = highest([&](double level) {
-    const Cut c = cut(shape, level);
-    const double r = spread * reach(1.0 - level);
-    return d - r >= c.low && d + r <= c.high;
-  });
-  return fit;
-}
-
-}  // namespace
-
+/// The numbers with mu(x) >= level, level in (0, 1], from `low` to `high`, which may be infinite. A circle is laid
+/// out straight as the shape is written. Not for bells and sigmoids.
+struct Cut { double low = 0.0, high = 0.0; };
 Cut cut(const Shape& shape, double level) {
   const auto& p = shape.p;
   switch (shape.kind) {
@@ -57,6 +42,24 @@ Cut cut(const Shape& shape, double level) {
   }
   return {-kInfinity, kInfinity};
 }
+
+// The fit on a line.
+Fit straight_fit(const Shape& shape, double d, double spread) {
+  Fit fit;
+  fit.possibility = highest([&](double level) {
+    const Cut c = cut(shape, level);
+    const double r = spread * reach(level);
+    return d + r >= c.low && d - r <= c.high;
+  });
+  fit.necessity = highest([&](double level) {
+    const Cut c = cut(shape, level);
+    const double r = spread * reach(1.0 - level);
+    return d - r >= c.low && d + r <= c.high;
+  });
+  return fit;
+}
+
+}  // namespace
 
 Fit fit(const Shape& shape, double value, double spread) {
   if (!(spread > 0.0)) {

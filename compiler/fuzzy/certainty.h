@@ -6,11 +6,6 @@
 
 namespace kb::fuzzy {
 
-/// The numbers with mu(x) >= level, level in (0, 1], from `low` to `high`, which may be infinite. A circle is laid
-/// out straight as the shape is written. Not for bells and sigmoids.
-struct Cut { double low = 0.0, high = 0.0; };
-[[nodiscard]] Cut cut(const Shape& shape, double level);
-
 /// How possible and how necessary it is that a Gaussian datum around `value` with this spread (>= 0; 0: exact) fits the shape.
 struct Fit { double possibility = 0.0, necessity = 0.0; };
 [[nodiscard]] Fit fit(const Shape& shape, double value, double spread);

@@ -27,17 +27,11 @@ float membership(Term term, float cf) {
 Interpreter::Interpreter(const Program& program)
     : program_(program), firing_(static_cast<float>(program.settings.firing)) {
   for (std::uint32_t i = 0; i < program.facts; ++i) thresholds_.push_back(thresholds(program.cells[i]));
-  std::uint32_t begin = 0;
-  for (std::uint32_t number = 0; number < program.levels.size(); ++number) {
-    Level level;
-    level.begin = level.end = begin;
+  for (std::uint32_t level = 0; level < program.levels.size(); ++level) {
+    const auto [begin, end] = rules_of(program, level);
     std::vector<CondId> roots;
-    for (; level.end < program.rules.size() && program.rules[level.end].level == number; ++level.end) {
-      roots.push_back(program.rules[level.end].condition);
-    }
-    level.conds = reachable(program.conds, roots);
-    begin = level.end;
-    levels_.push_back(std::move(level));
+    for (std::uint32_t rule = begin; rule < end; ++rule) roots.push_back(program.rules[rule].condition);
+    levels_.push_back({begin, end, reachable(program.conds, roots), {}});
   }
   reset();
 }
@@ -68,7 +62,7 @@ Tick Interpreter::tick(std::span<const float> facts, std::uint32_t dt_us) {
   for (std::uint32_t level = 0; level < levels_.size(); ++level) run_level(level, tick);
   dispatch(tick);
 
-  for (std::uint32_t i = program_.facts; i < program_.facts + program_.satellites; ++i) {
+  for (std::uint32_t i = program_.facts; i < program_.first_strategy(); ++i) {
     if (cf_[i] != before[i]) tick.set.push_back({CellId{i}, cf_[i]});
   }
   ++ticks_;

@@ -118,8 +118,7 @@ void take_effect(const std::vector<std::uint32_t>& group_of, const Effect& effec
 }
 
 bool writes_cell(const Program& program, const Rule& rule, CellId cell) {
-  const bool satellite = index(cell) >= program.facts && index(cell) < program.facts + program.satellites;
-  if (rule.reset && satellite && !program[cell].keep) return true;
+  if (rule.reset && program[cell].kind == CellKind::kSatellite && !program[cell].keep) return true;
   return std::any_of(rule.writes.begin(), rule.writes.end(), [&](const Write& write) { return write.cell == cell; }) ||
          std::any_of(rule.clears.begin(), rule.clears.end(), [&](std::uint32_t group) {
            return std::binary_search(program.exclusive[group].begin(), program.exclusive[group].end(), cell);
@@ -157,7 +156,7 @@ std::vector<Write> net_writes(const Program& program, const Rule& rule) {
     for (const CellId member : program.exclusive[group]) all.push_back({member, -1.0f});
   }
   if (rule.reset) {
-    for (std::uint32_t i = program.facts; i < program.facts + program.satellites; ++i) {
+    for (std::uint32_t i = program.facts; i < program.first_strategy(); ++i) {
       if (!program.cells[i].keep) all.push_back({CellId{i}, program.cells[i].initial});
     }
   }

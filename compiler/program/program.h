@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -134,6 +135,14 @@ struct Program {
   [[nodiscard]] const Cell& operator[](CellId id) const { return cells[index(id)]; }
   [[nodiscard]] const Rule& operator[](RuleId id) const { return rules[index(id)]; }
   [[nodiscard]] const Cond& operator[](CondId id) const { return conds[index(id)]; }
+  /// The index of the first strategy among the cells.
+  [[nodiscard]] std::uint32_t first_strategy() const { return facts + satellites; }
+  [[nodiscard]] std::span<const Cell> cells_of(CellKind kind) const {
+    const std::span all(cells);
+    return kind == CellKind::kFact        ? all.first(facts)
+           : kind == CellKind::kSatellite ? all.subspan(facts, satellites)
+                                          : all.subspan(first_strategy());
+  }
   [[nodiscard]] const std::string& at(const Rule& rule) const { return places[rule.place]; }
   /// The index of a place; a new one is added unless it equals that of the rule before.
   [[nodiscard]] std::uint32_t place(std::string text) {
@@ -141,6 +150,12 @@ struct Program {
     return static_cast<std::uint32_t>(places.size() - 1);
   }
 };
+
+/// The indexes of a level's rules. O(log rules).
+struct RuleRange {
+  std::uint32_t begin = 0, end = 0;
+};
+[[nodiscard]] RuleRange rules_of(const Program& program, std::uint32_t level);
 
 /// The thresholds of a fact as the engine compares them: computed in double from the written numbers and rounded to float
 /// once. A fact is newly seen above `plain` (`attended` if a satellite of it is high) and stays seen above `attended`.

@@ -78,8 +78,8 @@ class Verifier {
     for (std::uint32_t i = 0; i < program_.cells.size(); ++i) {
       const Cell& cell = program_.cells[i];
       const CellKind kind = i < program_.facts                         ? CellKind::kFact
-                            : i < program_.facts + program_.satellites ? CellKind::kSatellite
-                                                                       : CellKind::kStrategy;
+                            : i < program_.first_strategy()         ? CellKind::kSatellite
+                                                                    : CellKind::kStrategy;
       if (cell.kind != kind) fault("cell `{}` stands among cells of another kind", cell.name);
       if (!in_range(cell.initial)) fault("cell `{}` starts outside [-1, 1]", cell.name);
       for (const CellId satellite : cell.satellites) {

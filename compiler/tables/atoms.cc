@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "compiler/program/conditions.h"
+#include "compiler/program/net_effects.h"
 
 namespace kb::tables {
 namespace {
@@ -242,16 +243,13 @@ Atoms make_atoms(const program::Program& program, std::size_t longest) {
 }
 
 std::vector<int> rarity(const program::Program& program, const Atoms& atoms) {
-  std::vector<bool> exclusive(program.cells.size(), false);
-  for (const auto& group : program.exclusive) {
-    for (const program::CellId member : group) exclusive[index(member)] = true;
-  }
+  const std::vector<std::uint32_t> group_of = program::group_of_cells(program);
   std::vector<int> rank;
   for (const Proto& proto : atoms.protos) {
     const AtomOrigin& o = proto.origin;
     const bool high = o.kind == Kind::kTerm && o.term == program::Term::kHigh;
     if (o.kind == Kind::kEvent || o.kind == Kind::kLost || o.kind == Kind::kFalse) rank.push_back(0);
-    else if (high && exclusive[index(o.cell)]) rank.push_back(0);
+    else if (high && group_of[index(o.cell)] != program::kNoGroup) rank.push_back(0);
     else if (o.kind == Kind::kSeen || (high && program[o.cell].kind != program::CellKind::kFact)) rank.push_back(1);
     else rank.push_back(o.kind == Kind::kTerm ? 2 : 3);
   }

@@ -3,6 +3,7 @@
 
 #include <waymark/runtime/image_layout.h>
 #include <waymark/runtime/state.h>
+#include "compiler/program/net_effects.h"
 #include "compiler/tables/compact.h"
 #include "compiler/tables/perception.h"
 #include "compiler/tables/tables.h"
@@ -24,17 +25,14 @@ std::size_t table_bytes(const Tables& t) {
 std::uint32_t most_awake(const Tables& t, const program::Program& p) {
   std::map<std::uint32_t, std::uint32_t> by_key;
   for (const I key : t.rule_key) ++by_key[key];
-  std::vector<std::uint32_t> group(p.cells.size(), 0);
-  for (std::uint32_t g = 0; g < p.exclusive.size(); ++g) {
-    for (const program::CellId member : p.exclusive[g]) group[index(member)] = g + 1;
-  }
-  std::vector<std::uint32_t> most(p.exclusive.size() + 1, 0);
+  const std::vector<std::uint32_t> group_of = program::group_of_cells(p);
+  std::vector<std::uint32_t> most(p.exclusive.size(), 0);
   std::uint32_t sum = 0;
   for (const auto& [key, rules] : by_key) {
     const AtomOrigin& o = t.origins[key];
     const bool high = o.kind == AtomOrigin::Kind::kTerm && o.term == program::Term::kHigh;
-    const std::uint32_t g = high ? group[index(o.cell)] : 0;
-    if (g == 0) sum += rules;
+    const std::uint32_t g = high ? group_of[index(o.cell)] : program::kNoGroup;
+    if (g == program::kNoGroup) sum += rules;
     else most[g] = std::max(most[g], rules);
   }
   for (const std::uint32_t m : most) sum += m;

@@ -1,11 +1,11 @@
 // From the program to the tables, one table after another.
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <numeric>
 
 #include "compiler/program/net_effects.h"
 #include "compiler/tables/atoms.h"
+#include "compiler/tables/image.h"
 #include "compiler/tables/lists.h"
 #include "compiler/tables/tables.h"
 
@@ -33,7 +33,7 @@ class TableBuilder {
     writes();
     truth();
     strengths();
-    t_.narrow = fits(std::numeric_limits<std::uint16_t>::max());
+    t_.narrow = mts::is_narrow(image_head(t_, 0));
     return std::move(t_);
   }
 
@@ -53,7 +53,7 @@ class TableBuilder {
     for (const Proto& proto : atoms_.protos) t_.origins.push_back(proto.origin);
   }
 
-  I strategy(program::CellId id) const { return number(index(id) - p_.facts - p_.satellites); }
+  I strategy(program::CellId id) const { return number(index(id) - p_.first_strategy()); }
   I satellite(program::CellId id) const { return number(index(id) - p_.facts); }
 
   void cells() {
@@ -89,13 +89,12 @@ class TableBuilder {
 
   /// Puts rules into words. Each level begins a new word: see note [rule words].
   void place_rules() {
-    std::size_t rule = 0;
     word_of_.resize(p_.rules.size());
     for (std::uint32_t level = 0; level < p_.levels.size(); ++level) {
       const I first_word = number(t_.word_rule.size());
-      const std::size_t first = rule;
-      for (; rule < p_.rules.size() && p_.rules[rule].level == level; ++rule) {
-        if ((rule - first) % mts::kWordBits == 0) t_.word_rule.push_back(number(rule));
+      const auto [begin, end] = program::rules_of(p_, level);
+      for (std::uint32_t rule = begin; rule < end; ++rule) {
+        if ((rule - begin) % mts::kWordBits == 0) t_.word_rule.push_back(rule);
         word_of_[rule] = number(t_.word_rule.size() - 1);
       }
       t_.levels.push_back({first_word, number(t_.word_rule.size()), 0, 0});
@@ -290,18 +289,18 @@ class TableBuilder {
   void count_contested() {
     constexpr I kUnwritten = 0xFFFFFFFFu, kDisputed = 0xFFFFFFFEu;
     std::uint32_t contested = 0;
-    std::vector<I> first_value(p_.facts + p_.satellites, kUnwritten);   // by cell: the first value that a rule of the level writes directly
+    std::vector<I> first_value(p_.first_strategy(), kUnwritten);   // by cell: the first value that a rule of the level writes directly
     std::vector<I> written;
     for (std::uint32_t level = 0; level < p_.levels.size(); ++level) {
       written.clear();
       std::size_t resets = 0;
       bool clears = false;
-      const auto [begin, end] = rules_of(level);
+      const auto [begin, end] = program::rules_of(p_, level);
       for (std::size_t r = begin; r < end; ++r) {
         resets += p_.rules[r].reset ? 1 : 0;
         clears = clears || t_.rules[r].clears != t_.rules[r + 1].clears;
         for (I k = t_.rules[r].writes; k < t_.rules[r + 1].writes; ++k) {
-          if (t_.writes[k].cell >= p_.facts + p_.satellites) continue;
+          if (t_.writes[k].cell >= p_.first_strategy()) continue;
           I& first = first_value[t_.writes[k].cell];
           if (first == kUnwritten) written.push_back(t_.writes[k].cell);
           if (first == kUnwritten) first = t_.writes[k].value;
@@ -315,14 +314,6 @@ class TableBuilder {
       if (resets > 1 && clears) contested += p_.satellites;
     }
     t_.shape.contested = contested;
-  }
-  std::pair<std::size_t, std::size_t> rules_of(std::uint32_t level) const {
-    const mts::Level<I>& l = t_.levels[level];
-    if (l.first_word == l.end_word) return {0, 0};
-    const std::size_t begin = t_.word_rule[l.first_word];
-    std::size_t end = begin;
-    while (end < p_.rules.size() && p_.rules[end].level == level) ++end;
-    return {begin, end};
   }
 
   /// Atoms as they are at start-up: nothing is seen, facts are 0, satellites have their initial values, no timer has run.
@@ -355,14 +346,6 @@ class TableBuilder {
       t_.atom_cell.push_back(term ? number(index(proto.origin.cell)) : number(p_.cells.size()));
       t_.atom_term.push_back(static_cast<std::uint8_t>(proto.origin.term));
     }
-  }
-
-  bool fits(std::size_t most) const {
-    // A literal and a parent link need one bit more than an atom and a node.
-    return 2 * t_.atoms.size() < most && p_.cells.size() < most && p_.rules.size() < most && t_.conditions.size() < most &&
-           t_.readers.size() < most && t_.writes.size() < most && t_.parents.size() < most &&
-           t_.timer_inputs.size() < most && t_.children.size() < most && t_.attends.size() < most &&
-           t_.shape.group_members < most && p_.levels.size() < most;
   }
 
   const Program& p_;

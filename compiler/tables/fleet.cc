@@ -110,7 +110,7 @@ class FleetBuilder {
 
   void run_level(std::uint32_t level) {
     logic_.append({StepKind::kLevel, level});
-    const auto [begin, end] = rules_.of_level(level);
+    const auto [begin, end] = program::rules_of(p_, level);
     truth_.count_uses(begin, end);
     const mts::Level<I>& stages = t_.levels[level];
     for (I g = stages.first_stage; g < stages.end_stage; ++g) {
@@ -258,7 +258,7 @@ class FleetBuilder {
     for (std::uint32_t r = begin; r < end; ++r) {
       for (const program::Write& w : p_.rules[r].writes) {
         if (p_[w.cell].kind != program::CellKind::kStrategy || !(w.value >= t_.firing)) continue;
-        wanted[static_cast<std::uint32_t>(index(w.cell)) - p_.facts - p_.satellites].push_back(r);
+        wanted[static_cast<std::uint32_t>(index(w.cell)) - p_.first_strategy()].push_back(r);
         if (p_.at(p_.rules[r]) != "priority") f_.exclusive_strategies = false;
       }
     }
@@ -271,7 +271,7 @@ class FleetBuilder {
     std::vector<Ref> runs = wanted_;
     Ref some = kZeros, several = kZeros;
     for (const program::CellId cell : p_.priority) {
-      const auto u = static_cast<std::uint32_t>(index(cell)) - p_.facts - p_.satellites;
+      const auto u = static_cast<std::uint32_t>(index(cell)) - p_.first_strategy();
       if (!f_.exclusive_strategies) {
         several = logic_.either(several, logic_.both(some, wanted_[u]));
         runs[u] = logic_.both(wanted_[u], some ^ 1u);

@@ -44,13 +44,6 @@ void FleetRules::find_groups() {
   }
 }
 
-std::pair<std::uint32_t, std::uint32_t> FleetRules::of_level(std::uint32_t level) const {
-  const auto by_level = [](const program::Rule& rule, std::uint32_t l) { return rule.level < l; };
-  const auto begin = std::lower_bound(p_.rules.begin(), p_.rules.end(), level, by_level);
-  const auto end = std::lower_bound(begin, p_.rules.end(), level + 1, by_level);
-  return {static_cast<std::uint32_t>(begin - p_.rules.begin()), static_cast<std::uint32_t>(end - p_.rules.begin())};
-}
-
 std::vector<I> FleetRules::literals(std::uint32_t rule) const {
   return {t_.conditions.begin() + t_.rules[rule].conditions, t_.conditions.begin() + t_.rules[rule + 1].conditions};
 }
@@ -81,7 +74,7 @@ std::optional<bool> FleetRules::after_own_writes(I literal, const std::vector<Ce
     }
   }
   if (o.kind != Kind::kNode) return std::nullopt;
-  const std::uint32_t node = atom - first_node();
+  const std::uint32_t node = atom - t_.shape.first_node();
   const bool all = is_and(node);
   bool known = true;
   for (const I child : children_[node]) {
@@ -106,7 +99,7 @@ bool FleetRules::reads_written(I atom, const std::vector<bool>& written) const {
   const AtomOrigin& o = t_.origins[atom];
   if (o.kind == Kind::kTerm) return p_[o.cell].kind == program::CellKind::kSatellite && written[index(o.cell) - p_.facts];
   if (o.kind != Kind::kNode) return false;
-  return std::ranges::any_of(children_[atom - first_node()], [&](I child) { return reads_written(child >> 1, written); });
+  return std::ranges::any_of(children_[atom - t_.shape.first_node()], [&](I child) { return reads_written(child >> 1, written); });
 }
 
 bool FleetRules::disturbed(std::uint32_t rule) const {
@@ -123,7 +116,7 @@ void FleetRules::weigh(std::uint32_t rule, std::vector<bool>& facts) const {
     const AtomOrigin& o = t_.origins[l >> 1];
     if (o.kind == Kind::kTerm && p_[o.cell].kind == program::CellKind::kFact) facts[index(o.cell)] = true;
     if (o.kind != Kind::kNode) continue;
-    const auto& parts = children_[(l >> 1) - first_node()];
+    const auto& parts = children_[(l >> 1) - t_.shape.first_node()];
     open.insert(open.end(), parts.begin(), parts.end());
   }
 }

@@ -20,8 +20,6 @@ class FleetRules {
  public:
   FleetRules(const program::Program& program, const Tables& tables);
 
-  /// First and end of the level's rules.
-  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> of_level(std::uint32_t level) const;
   [[nodiscard]] const std::vector<CellWrite>& writes(std::uint32_t rule) const { return writes_[rule]; }
   /// Whether both can fire on one tick of one robot. They cannot if one condition demands what the other denies, if they ask for
   /// different members of an exclusive group, or if one resets and silences the other.
@@ -30,11 +28,10 @@ class FleetRules {
   [[nodiscard]] bool disarms_itself(std::uint32_t rule) const;
   /// Whether the rules of its level can change what its condition reads, timers aside.
   [[nodiscard]] bool disturbed(std::uint32_t rule) const;
-  /// The literals of a condition, or of a node.
+  /// The literals of the condition.
   [[nodiscard]] std::vector<I> literals(std::uint32_t rule) const;
   [[nodiscard]] const std::vector<I>& children(std::uint32_t node) const { return children_[node]; }
   [[nodiscard]] bool is_and(std::uint32_t node) const { return t_.nodes[node].need == children_[node].size(); }
-  [[nodiscard]] std::uint32_t first_node() const { return t_.shape.atoms - t_.shape.nodes; }
   /// Groups of satellites of which at most one is high at any time.
   [[nodiscard]] const std::vector<std::vector<std::uint32_t>>& exclusive() const { return exclusive_; }
   /// Marks the facts whose certainty goes into the rule's strength.

@@ -61,7 +61,7 @@ void FleetTruth::load_strategies() {
   active_.assign(p_.strategies, kZeros);
   for (const AtomOrigin& o : t_.origins) {
     if (o.kind != AtomKind::kTerm || p_[o.cell].kind != program::CellKind::kStrategy) continue;
-    const auto u = static_cast<std::uint32_t>(index(o.cell)) - p_.facts - p_.satellites;
+    const auto u = static_cast<std::uint32_t>(index(o.cell)) - p_.first_strategy();
     active_[u] = load(PlaneKind::kActive, u);
   }
 }
@@ -85,7 +85,7 @@ Ref FleetTruth::cell_term(program::CellId cell, Term term) {
       return load(term == Term::kHigh ? PlaneKind::kHigh : term == Term::kLow ? PlaneKind::kLow : PlaneKind::kZero, number);
     case program::CellKind::kSatellite: return satellite_term(number - p_.facts, term, code_[number - p_.facts]);
     case program::CellKind::kStrategy: {
-      const Ref active = active_[number - p_.facts - p_.satellites];
+      const Ref active = active_[number - p_.first_strategy()];
       return term == Term::kHigh ? active : term == Term::kLow ? active ^ 1u : kZeros;
     }
   }
@@ -103,8 +103,8 @@ Ref FleetTruth::atom(I a) {
     case AtomKind::kSeen: return seen_[fact];
     case AtomKind::kEvent: return event(fact);
     case AtomKind::kLost: return lost(fact);
-    case AtomKind::kTimer: return timer_[a - (rules.first_node() - t_.shape.timers)];
-    case AtomKind::kNode: return node(a - rules.first_node());
+    case AtomKind::kTimer: return timer_[a - (t_.shape.first_timer())];
+    case AtomKind::kNode: return node(a - t_.shape.first_node());
   }
   return kZeros;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <waymark/runtime/image_layout.h>
 #include <waymark/runtime/table.h>
 #include "compiler/program/program.h"
 #include "compiler/tables/fuzzy.h"
@@ -64,6 +65,14 @@ struct Tables {
   std::vector<AtomOrigin> origins;   ///< by atom
   std::vector<I> rule_key;           ///< by rule: its key atom (kTrueAtom if it never sleeps)
 };
+
+/// Calls `f(name, array)` for each array of MTS_IMAGE_TABLES, in its order, which is that of the members of mts::Tables.
+template <class F>
+void for_each_array(const Tables& tables, F&& f) {
+#define KB_ARRAY(name, type, length) f(#name, tables.name);
+  MTS_IMAGE_TABLES(KB_ARRAY)
+#undef KB_ARRAY
+}
 
 /// The same tables as the engine reads them; valid for as long as `tables` is neither moved nor changed.
 [[nodiscard]] mts::Tables<I> view(const Tables& tables);

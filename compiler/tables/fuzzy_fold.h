@@ -2,6 +2,8 @@
 // each part of the input's range which rows can hold there. Decided here, printed by compiler/emit.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +36,9 @@ struct FuzzyLayout {
   std::uint32_t places = 0;
   std::vector<bool> listed;                    ///< by output: read from the list of rules that fired
   FuzzyFold fold;
+
+  /// How many outputs are listed.
+  [[nodiscard]] std::size_t voices() const { return static_cast<std::size_t>(std::count(listed.begin(), listed.end(), true)); }
 };
 
 /// Pure; O(controller), and cells times nests evaluations of a term.

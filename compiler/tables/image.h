@@ -16,6 +16,9 @@ namespace kb::tables {
 /// carry (perception, fuzzy controllers) is left out. Empty if the image would exceed the largest size allowed. O(tables).
 [[nodiscard]] std::string write_image(const Tables& tables, const program::Program& program);
 
+/// The head of that image, without size and checksum. `name_bytes`: of all names, each with the zero that ends it.
+[[nodiscard]] mts::ImageHead image_head(const Tables& tables, std::uint32_t name_bytes);
+
 /// Verifies an image in place, as every reader does; `bytes` must be aligned like heap memory.
 [[nodiscard]] mts::ImageStatus verify_image(std::string_view bytes);
 

@@ -197,32 +197,6 @@ std::vector<I> image_children(const Tables& t) {
   return children;
 }
 
-mts::ImageHead image_head(const Tables& t, std::uint32_t name_bytes) {
-  mts::ImageHead h{};
-  std::copy(std::begin(mts::kImageMagic), std::end(mts::kImageMagic), h.magic);
-  h.form = mts::kImageForm;
-  h.abi = mts::kAbi;
-  h.shape = t.shape;
-  h.firing = t.firing;
-  h.idle = static_cast<std::uint32_t>(t.idle);
-  h.idle_strategy = t.idle_strategy;
-  h.hold_limit_us = t.hold_limit_us;
-  const auto length = [](const auto& items) { return static_cast<std::uint32_t>(items.size()); };
-  h.readers = length(t.readers);
-  h.parents = length(t.parents);
-  h.broad = length(t.broad);
-  h.attends = length(t.attends);
-  h.stages = length(t.stages);
-  h.conditions = length(t.conditions);
-  h.writes = length(t.writes);
-  h.clears = length(t.clears);
-  h.values = length(t.values);
-  h.children = length(t.children);
-  h.name_bytes = name_bytes;
-  h.index_bytes = mts::is_narrow(h) ? 2 : 4;
-  return h;
-}
-
 void write_head(ImageBytes& out, const mts::ImageHead& h) {
   static_assert(std::is_trivially_copyable_v<mts::ImageHead>);
   std::uint32_t words[sizeof h / 4];
@@ -279,6 +253,32 @@ void write_tables(ImageBytes& out, const Tables& t) {
 }
 
 }  // namespace
+
+mts::ImageHead image_head(const Tables& t, std::uint32_t name_bytes) {
+  mts::ImageHead h{};
+  std::copy(std::begin(mts::kImageMagic), std::end(mts::kImageMagic), h.magic);
+  h.form = mts::kImageForm;
+  h.abi = mts::kAbi;
+  h.shape = t.shape;
+  h.firing = t.firing;
+  h.idle = static_cast<std::uint32_t>(t.idle);
+  h.idle_strategy = t.idle_strategy;
+  h.hold_limit_us = t.hold_limit_us;
+  const auto length = [](const auto& items) { return static_cast<std::uint32_t>(items.size()); };
+  h.readers = length(t.readers);
+  h.parents = length(t.parents);
+  h.broad = length(t.broad);
+  h.attends = length(t.attends);
+  h.stages = length(t.stages);
+  h.conditions = length(t.conditions);
+  h.writes = length(t.writes);
+  h.clears = length(t.clears);
+  h.values = length(t.values);
+  h.children = length(t.children);
+  h.name_bytes = name_bytes;
+  h.index_bytes = mts::is_narrow(h) ? 2 : 4;
+  return h;
+}
 
 std::string write_image(const Tables& t, const Program& p) {
   const std::vector<std::string_view> names = all_names(p);

@@ -54,9 +54,8 @@ program::Tick tick_of(const mts::DynamicState<Index>& s, const program::Program&
     const program::CellId cell{c.cell};
     tick.conflicts.push_back({cell, program::writers_among(program, tick.fired, c.level, cell)});
   }
-  const std::uint32_t first_strategy = program.facts + program.satellites;
-  for (std::uint32_t i = 0; i < s.active; ++i) tick.active.push_back(program::CellId{s.active_list[i] + first_strategy});
-  if (s.strategy != 0) tick.strategy = program::CellId{s.strategy - 1 + first_strategy};
+  for (std::uint32_t i = 0; i < s.active; ++i) tick.active.push_back(program::CellId{s.active_list[i] + program.first_strategy()});
+  if (s.strategy != 0) tick.strategy = program::CellId{s.strategy - 1 + program.first_strategy()};
   tick.bad_facts = s.bad_facts;
   tick.status = static_cast<program::Status>(s.status);
   return tick;

@@ -15,7 +15,6 @@ namespace kb::emitted {
 /// A decision as the compiler's own record of a tick.
 template <class K>
 program::Tick record(const program::Program& program, const mts::Decision<K>& decision) {
-  const std::uint32_t first_strategy = program.facts + program.satellites;
   program::Tick tick;
   tick.number = decision.tick();
   tick.time_us = decision.time_us();
@@ -24,7 +23,7 @@ program::Tick record(const program::Program& program, const mts::Decision<K>& de
   for (const auto rule : decision.fired()) tick.fired.push_back(program::RuleId{static_cast<std::uint32_t>(rule)});
   for (const auto& change : decision.changed()) tick.set.push_back({program::CellId{change.cell}, change.value});
   for (const auto strategy : decision.active()) {
-    tick.active.push_back(program::CellId{static_cast<std::uint32_t>(strategy) + first_strategy});
+    tick.active.push_back(program::CellId{static_cast<std::uint32_t>(strategy) + program.first_strategy()});
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> conflicts;
   for (const auto& c : decision.conflicts()) conflicts.emplace_back(c.level, c.cell);
@@ -37,7 +36,7 @@ program::Tick record(const program::Program& program, const mts::Decision<K>& de
   std::sort(tick.lost.begin(), tick.lost.end());
   std::sort(tick.set.begin(), tick.set.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
   if (decision.drives()) {
-    tick.strategy = program::CellId{static_cast<std::uint32_t>(decision.strategy()) + first_strategy};
+    tick.strategy = program::CellId{static_cast<std::uint32_t>(decision.strategy()) + program.first_strategy()};
   }
   tick.bad_facts = decision.bad_facts();
   tick.status = static_cast<program::Status>(decision.status());

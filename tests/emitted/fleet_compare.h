@@ -30,8 +30,8 @@ program::Tick record_of(const program::Program& p, const mts::RobotTick<K>& robo
     const auto cell = cell_of<program::CellId>(c.satellite, p.facts);
     tick.conflicts.push_back({cell, program::writers_among(p, tick.fired, c.level, cell)});
   }
-  for (const auto u : robot.active) tick.active.push_back(cell_of<program::CellId>(u, p.facts + p.satellites));
-  if (robot.strategy) tick.strategy = cell_of<program::CellId>(*robot.strategy, p.facts + p.satellites);
+  for (const auto u : robot.active) tick.active.push_back(cell_of<program::CellId>(u, p.first_strategy()));
+  if (robot.strategy) tick.strategy = cell_of<program::CellId>(*robot.strategy, p.first_strategy());
   tick.bad_facts = robot.bad_facts;
   tick.status = static_cast<program::Status>(robot.status);
   return tick;
@@ -106,12 +106,12 @@ class FleetTrial {
     }
     same = same && plain_.drives(robot) == got_strategy(expected) && plain_.status(robot) == static_cast<mts::Status>(expected.status) &&
            (expected.status != program::Status::kHolding || plain_.holding(robot)) && (expected.status != program::Status::kOk || !plain_.holding(robot)) &&
-           (!plain_.drives(robot) || cell_of<program::CellId>(plain_.strategy(robot), program_.facts + program_.satellites) == expected.strategy);
+           (!plain_.drives(robot) || cell_of<program::CellId>(plain_.strategy(robot), program_.first_strategy()) == expected.strategy);
     for (std::uint32_t u = 0; u < program_.strategies; ++u) {
       const auto strategy = static_cast<typename K::Strategy>(u);
       const bool runs = (plain_.running(strategy, robot / 64) >> (robot % 64) & 1u) != 0;
       const bool holds = expected.status == program::Status::kHolding || !expected.active.empty();
-      same = same && (!holds || runs == (expected.strategy == cell_of<program::CellId>(u, program_.facts + program_.satellites)));
+      same = same && (!holds || runs == (expected.strategy == cell_of<program::CellId>(u, program_.first_strategy())));
     }
     if (same) return true;
     std::printf("seed %llu, tick %zu, robot %zu, %u bits\n  interpreter: %s\n  fleet:       %s\n  untraced: %s, %s\n", static_cast<unsigned long long>(seed_),

@@ -57,7 +57,7 @@ Simulation::Disturbance chatter(std::uint64_t seed) {
 
 std::string left_over(const Knowledge& knowledge, const Mind& mind) {
   const program::Program& program = knowledge.program();
-  for (std::size_t i = program.facts; i < program.facts + program.satellites; ++i) {
+  for (std::size_t i = program.facts; i < program.first_strategy(); ++i) {
     if (mind.value(static_cast<program::CellId>(i)) != program.cells[i].initial) return std::string(program.cells[i].name);
   }
   return {};

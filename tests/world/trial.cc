@@ -81,7 +81,7 @@ Finding Trial::drove(std::string_view way) {
 std::string Trial::left_over() const {
   std::string left;
   const program::Program& program = knowledge_->program();
-  for (std::size_t i = program.facts; i < program.facts + program.satellites; ++i) {
+  for (std::size_t i = program.facts; i < program.first_strategy(); ++i) {
     if (mind_->value(static_cast<program::CellId>(i)) == program.cells[i].initial) continue;
     if (!left.empty()) left += ", ";
     left += program.cells[i].name;
