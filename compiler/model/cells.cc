@@ -160,4 +160,16 @@ void set_field(Draft& draft, RowId row, std::string_view field, Value value) {
   if (const auto place = find_field(draft.model[one.relation], field)) draft.model.values[one.first + *place] = std::move(value);
 }
 
+const Entity* need_entity(Draft& draft, const syntax::Name& name, Entity::Kind wanted, Kind unknown, Kind other) {
+  const Entity* entity = draft.names.find(name.text);
+  if (entity == nullptr) {
+    draft.diagnostics.report(unknown, name.span, {name.text}).suggest(draft.names.nearest(name.text, wanted, draft.diagnostics));
+    return nullptr;
+  }
+  if (entity->kind == wanted) return entity;
+  if (entity->kind == Entity::Kind::kBroken) return nullptr;
+  draft.diagnostics.report(other, name.span, {name.text, words_for(entity->kind)}).note(Kind::kNameDeclaredHere, entity->declared, {name.text});
+  return nullptr;
+}
+
 }  // namespace kb::model

@@ -214,6 +214,10 @@ void set_field(Draft& draft, RowId row, std::string_view field, Value value);
 [[nodiscard]] std::optional<std::size_t> find_field(const Relation& relation, std::string_view field);
 void report_unknown_field(Draft& draft, const Relation& relation, const syntax::Name& field);
 
+/// The entity of this name and kind. Null if there is none: `unknown` is reported, or `other` if the name is something else, or nothing if
+/// its declaration was broken.
+[[nodiscard]] const Entity* need_entity(Draft& draft, const syntax::Name& name, Entity::Kind wanted, diagnostics::Kind unknown, diagnostics::Kind other);
+
 /// The finite set of this name; reported if there is none. `or_relation`: a relation may be meant as well.
 [[nodiscard]] std::optional<SetId> need_set(Draft& draft, syntax::Name name, bool or_relation = false);
 

@@ -82,22 +82,12 @@ std::optional<std::size_t> Percepts::variable(std::string_view name) const {
 
 std::optional<Percepts::Element> Percepts::element(syntax::RefId id) {
   const syntax::Ref& ref = tree_[id];
-  const Entity* entity = draft_.names.find(ref.base.text);
   if (variable(ref.base.text)) {
     draft_.diagnostics.report(Kind::kNotASensor, ref.base.span, {ref.base.text, "a variable"});
     return std::nullopt;
   }
-  if (entity == nullptr) {
-    draft_.diagnostics.report(Kind::kUnknownSensor, ref.base.span, {ref.base.text})
-        .suggest(draft_.names.nearest(ref.base.text, Entity::Kind::kSensor, draft_.diagnostics));
-    return std::nullopt;
-  }
-  if (entity->kind == Entity::Kind::kBroken) return std::nullopt;
-  if (entity->kind != Entity::Kind::kSensor) {
-    draft_.diagnostics.report(Kind::kNotASensor, ref.base.span, {ref.base.text, words_for(entity->kind)})
-        .note(Kind::kNameDeclaredHere, entity->declared, {ref.base.text});
-    return std::nullopt;
-  }
+  const Entity* entity = need_entity(draft_, ref.base, Entity::Kind::kSensor, Kind::kUnknownSensor, Kind::kNotASensor);
+  if (entity == nullptr) return std::nullopt;
   const Sensor& sensor = draft_.model.sensors[entity->id];
   draft_.sensors[entity->id].used = true;
   const auto offset = index_of(ref, sensor);
@@ -130,18 +120,8 @@ Outcome Percepts::read_named(const syntax::Percept& from, PerceptId& made) {
     binders_[*b].used = true;
     return read_text(from, names_[*b], made);
   }
-  const Entity* entity = draft_.names.find(from.word.text);
-  if (entity == nullptr) {
-    draft_.diagnostics.report(Kind::kUnknownPrototype, from.word.span, {from.word.text})
-        .suggest(draft_.names.nearest(from.word.text, Entity::Kind::kPrototype, draft_.diagnostics));
-    return Outcome::kBroken;
-  }
-  if (entity->kind == Entity::Kind::kBroken) return Outcome::kBroken;
-  if (entity->kind != Entity::Kind::kPrototype) {
-    draft_.diagnostics.report(Kind::kNotAPrototype, from.word.span, {from.word.text, words_for(entity->kind)})
-        .note(Kind::kNameDeclaredHere, entity->declared, {from.word.text});
-    return Outcome::kBroken;
-  }
+  const Entity* entity = need_entity(draft_, from.word, Entity::Kind::kPrototype, Kind::kUnknownPrototype, Kind::kNotAPrototype);
+  if (entity == nullptr) return Outcome::kBroken;
   const Prototype& prototype = draft_.model.prototypes[entity->id];
   return read_fits(from, (*prototype.tree)[prototype.shape], prototype.name, made);
 }

@@ -62,19 +62,9 @@ void report_wrong_exit(Draft& draft, const syntax::Stop& stop, std::uint32_t fro
 
 /// The landmark of a stop on map `map`; reported if there is none.
 std::optional<std::uint32_t> landmark_of(Draft& draft, syntax::Name name, std::uint32_t map) {
-  const Entity* entity = draft.names.find(name.text);
-  if (entity != nullptr && entity->kind == Entity::Kind::kBroken) return std::nullopt;
-  if (entity == nullptr) {
-    draft.diagnostics.report(Kind::kUnknownLandmark, name.span, {name.text})
-        .suggest(draft.names.nearest(name.text, Entity::Kind::kLandmark, draft.diagnostics));
-    return std::nullopt;
-  }
-  if (entity->kind != Entity::Kind::kLandmark) {
-    if (draft.lost_landmarks.contains(name.text)) return std::nullopt;
-    draft.diagnostics.report(Kind::kNotALandmark, name.span, {name.text, words_for(entity->kind)})
-        .note(Kind::kNameDeclaredHere, entity->declared, {name.text});
-    return std::nullopt;
-  }
+  if (draft.lost_landmarks.contains(name.text) && draft.names.find(name.text)->kind != Entity::Kind::kLandmark) return std::nullopt;
+  const Entity* entity = need_entity(draft, name, Entity::Kind::kLandmark, Kind::kUnknownLandmark, Kind::kNotALandmark);
+  if (entity == nullptr) return std::nullopt;
   const std::uint32_t landmark = draft.landmark_of_row.at(entity->id);
   const std::uint32_t own = draft.landmarks[landmark].map;
   if (own == map) return landmark;
@@ -139,18 +129,10 @@ class RouteReader {
   }
 
   void read_command() {
-    const Entity* entity = draft_.names.find(route_.command.text);
-    if (entity != nullptr && (entity->kind == Entity::Kind::kBroken || (entity->twice && entity->kind != Entity::Kind::kCommand))) return;
-    if (entity == nullptr) {
-      draft_.diagnostics.report(Kind::kUnknownCommand, route_.command.span, {route_.command.text})
-          .suggest(draft_.names.nearest(route_.command.text, Entity::Kind::kCommand, draft_.diagnostics));
-      return;
-    }
-    if (entity->kind != Entity::Kind::kCommand) {
-      draft_.diagnostics.report(Kind::kNotACommand, route_.command.span, {route_.command.text, words_for(entity->kind)})
-          .note(Kind::kNameDeclaredHere, entity->declared, {route_.command.text});
-      return;
-    }
+    const Entity* declared = draft_.names.find(route_.command.text);
+    if (declared != nullptr && declared->twice && declared->kind != Entity::Kind::kCommand) return;
+    const Entity* entity = need_entity(draft_, route_.command, Entity::Kind::kCommand, Kind::kUnknownCommand, Kind::kNotACommand);
+    if (entity == nullptr) return;
     const auto [first, fresh] = draft_.commands_used.emplace(route_.command.text, route_.command.span);
     if (!fresh) {
       draft_.diagnostics.report(Kind::kCommandTwice, route_.command.span, {route_.command.text})
