@@ -123,40 +123,19 @@ void TreeBuilder::items_of(Id ref) {
   }
 }
 
-void TreeBuilder::exclusive(Span span) {
-  once(declaration_.exclusive.has_value(), span);
-  declaration_.exclusive = span;
-}
+void TreeBuilder::exclusive(Span span) { set_once(declaration_.exclusive, span, span); }
 
-void TreeBuilder::keep(Span span) {
-  once(declaration_.keep.has_value(), span);
-  declaration_.keep = span;
-}
+void TreeBuilder::keep(Span span) { set_once(declaration_.keep, span, span); }
 
-void TreeBuilder::output(Span span) {
-  once(declaration_.output.has_value(), span);
-  declaration_.output = span;
-}
+void TreeBuilder::output(Span span) { set_once(declaration_.output, span, span); }
 
-void TreeBuilder::initial(Span span, Id number) {
-  once(declaration_.initial.has_value(), span);
-  declaration_.initial = numbers_[number];
-}
+void TreeBuilder::initial(Span span, Id number) { set_once(declaration_.initial, numbers_[number], span); }
 
-void TreeBuilder::sat_initial(Span span, Id number) {
-  once(declaration_.sat_initial.has_value(), span);
-  declaration_.sat_initial = numbers_[number];
-}
+void TreeBuilder::sat_initial(Span span, Id number) { set_once(declaration_.sat_initial, numbers_[number], span); }
 
-void TreeBuilder::event_threshold(Span span, Id number) {
-  once(declaration_.event.has_value(), span);
-  declaration_.event = numbers_[number];
-}
+void TreeBuilder::event_threshold(Span span, Id number) { set_once(declaration_.event, numbers_[number], span); }
 
-void TreeBuilder::attention_threshold(Span span, Id number) {
-  once(declaration_.attention.has_value(), span);
-  declaration_.attention = numbers_[number];
-}
+void TreeBuilder::attention_threshold(Span span, Id number) { set_once(declaration_.attention, numbers_[number], span); }
 
 void TreeBuilder::declaration() { add(std::move(declaration_)); }
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -194,6 +196,12 @@ class TreeBuilder {
   void report_too_deep(Span span);
   [[nodiscard]] Id add_percept(Percept percept, std::uint16_t depth);
   void once(bool already, Span span);
+  /// Sets what a clause says. A second such clause is reported and replaces the first.
+  template <class T>
+  void set_once(std::optional<T>& what, const std::type_identity_t<T>& value, Span span) {
+    once(what.has_value(), span);
+    what = value;
+  }
   template <class Node>
   void add(Node node) {
     tree_.statements.push_back({Span{}, std::move(node)});

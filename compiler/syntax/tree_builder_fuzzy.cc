@@ -45,15 +45,9 @@ void TreeBuilder::begin_fuzzy(Span name) {
   fuzzy_.name = name_at(name);
 }
 
-void TreeBuilder::fuzzy_and(Span clause, Span word) {
-  once(fuzzy_.conjunction.has_value(), clause);
-  fuzzy_.conjunction = name_at(word);
-}
+void TreeBuilder::fuzzy_and(Span clause, Span word) { set_once(fuzzy_.conjunction, name_at(word), clause); }
 
-void TreeBuilder::fuzzy_or(Span clause, Span word) {
-  once(fuzzy_.disjunction.has_value(), clause);
-  fuzzy_.disjunction = name_at(word);
-}
+void TreeBuilder::fuzzy_or(Span clause, Span word) { set_once(fuzzy_.disjunction, name_at(word), clause); }
 
 void TreeBuilder::add_input(Span name, Id range_end, Id circular) {
   Fuzzy::Input input;
@@ -82,15 +76,9 @@ void TreeBuilder::add_output_term(Span name, Id number) {
   fuzzy_.outputs.back().terms.push_back({name_at(name), numbers_[number]});
 }
 
-void TreeBuilder::output_by(Span word, Span method) {
-  once(fuzzy_.outputs.back().by.has_value(), word);
-  fuzzy_.outputs.back().by = name_at(method);
-}
+void TreeBuilder::output_by(Span word, Span method) { set_once(fuzzy_.outputs.back().by, name_at(method), word); }
 
-void TreeBuilder::output_within(Span word, Id number) {
-  once(fuzzy_.outputs.back().within.has_value(), word);
-  fuzzy_.outputs.back().within = numbers_[number];
-}
+void TreeBuilder::output_within(Span word, Id number) { set_once(fuzzy_.outputs.back().within, numbers_[number], word); }
 
 void TreeBuilder::output_default(Span word, Id number) {
   Fuzzy::Output& output = fuzzy_.outputs.back();

@@ -27,20 +27,11 @@ void TreeBuilder::sensor_text(Span word) {
   if (text(word) != "text") diagnostics_.report(Kind::kSensorQuantity, word, {text(word)});
 }
 
-void TreeBuilder::sensor_noise(Span span, Id number) {
-  once(sensor_.noise.has_value(), span);
-  sensor_.noise = numbers_[number];
-}
+void TreeBuilder::sensor_noise(Span span, Id number) { set_once(sensor_.noise, numbers_[number], span); }
 
-void TreeBuilder::sensor_stale(Span span, Id number) {
-  once(sensor_.stale.has_value(), span);
-  sensor_.stale = numbers_[number];
-}
+void TreeBuilder::sensor_stale(Span span, Id number) { set_once(sensor_.stale, numbers_[number], span); }
 
-void TreeBuilder::sensor_circular(Span span) {
-  once(sensor_.circular.has_value(), span);
-  sensor_.circular = span;
-}
+void TreeBuilder::sensor_circular(Span span) { set_once(sensor_.circular, span, span); }
 
 void TreeBuilder::sensor() { add(std::move(sensor_)); }
 
@@ -53,15 +44,11 @@ void TreeBuilder::add_member(Span name, Id percept) {
 }
 
 void TreeBuilder::definition(Span span, Id percept) {
-  once(declaration_.definition.has_value(), span);
-  declaration_.definition = PerceptId{percept};
+  set_once(declaration_.definition, PerceptId{percept}, span);
   declaration_.definition_span = span;
 }
 
-void TreeBuilder::lazy(Span span) {
-  once(declaration_.lazy.has_value(), span);
-  declaration_.lazy = span;
-}
+void TreeBuilder::lazy(Span span) { set_once(declaration_.lazy, span, span); }
 
 void TreeBuilder::perceive(Id target, Id percept) { add(Perceive{std::move(binders_), RefId{target}, PerceptId{percept}}); }
 
