@@ -1,10 +1,8 @@
 // The shortest path, with which other methods are compared, as a method.
-#include "planners/method.h"
+#include "planners/methods.h"
 #include "planners/shortest.h"
 
 namespace kb::planners {
-
-Result run_astar(const Problem& problem, const RunOptions& run);
 
 Result run_astar(const Problem& problem, const RunOptions&) {
   Astar search(*problem.grid);

@@ -1,5 +1,6 @@
 #include "planners/bug.h"
 #include "planners/bug_run.h"
+#include "planners/methods.h"
 
 namespace kb::planners {
 
@@ -39,7 +40,6 @@ Result bug1(const Problem& problem, const RunOptions& run_settings, const BugOpt
   return run.finish(Outcome::kReached);
 }
 
-Result run_bug1(const Problem& problem, const RunOptions& run);
 Result run_bug1(const Problem& problem, const RunOptions& run) { return bug1(problem, run); }
 
 }  // namespace kb::planners

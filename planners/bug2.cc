@@ -3,6 +3,7 @@
 
 #include "planners/bug.h"
 #include "planners/bug_run.h"
+#include "planners/methods.h"
 
 namespace kb::planners {
 namespace {
@@ -113,7 +114,6 @@ class Bug2 {
 
 Result bug2(const Problem& problem, const RunOptions& run, const BugOptions& options) { return Bug2(problem, run, options).go(); }
 
-Result run_bug2(const Problem& problem, const RunOptions& run);
 Result run_bug2(const Problem& problem, const RunOptions& run) { return bug2(problem, run); }
 
 }  // namespace kb::planners

@@ -1,5 +1,6 @@
 #include "planners/bug.h"
 #include "planners/bug_run.h"
+#include "planners/methods.h"
 
 namespace kb::planners {
 
@@ -112,17 +113,14 @@ Result modified_bug(const Problem& problem, const RunOptions& run, const BugOpti
   return ModifiedBug(problem, run, options).go();
 }
 
-Result run_modified_bug(const Problem& problem, const RunOptions& run);
 Result run_modified_bug(const Problem& problem, const RunOptions& run) {
   return modified_bug(problem, run, {.hand = HandRule::kSmallerTurn});
 }
 
-Result run_nearer_bug(const Problem& problem, const RunOptions& run);
 Result run_nearer_bug(const Problem& problem, const RunOptions& run) {
   return modified_bug(problem, run, {.leave = LeaveRule::kNearer, .hand = HandRule::kSmallerTurn});
 }
 
-Result run_literal_bug(const Problem& problem, const RunOptions& run);
 Result run_literal_bug(const Problem& problem, const RunOptions& run) {
   return modified_bug(problem, run, {.leave = LeaveRule::kLiteral});
 }

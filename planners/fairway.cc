@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "planners/method.h"
+#include "planners/methods.h"
 #include "planners/shortest.h"
 
 namespace kb::planners {
@@ -111,9 +111,6 @@ Fairway find_fairway(const Grid& grid, Cell start, Cell goal) {
   }
   return fairway;
 }
-
-Result run_fairway(const Problem& problem, const RunOptions& run);
-Picture draw_fairway(const Problem& problem, const Result& result);
 
 Result run_fairway(const Problem& problem, const RunOptions&) {
   const Grid& grid = *problem.grid;

@@ -6,6 +6,7 @@
 
 #include "planners/bug_run.h"
 #include "planners/fairway.h"
+#include "planners/methods.h"
 
 namespace kb::planners {
 namespace {
@@ -145,7 +146,6 @@ Result fairway_bug(const Problem& problem, const Grid& actual, const RunOptions&
   return FairwayBug(problem, actual, run, options).go();
 }
 
-Result run_fairway_bug(const Problem& problem, const RunOptions& run);
 Result run_fairway_bug(const Problem& problem, const RunOptions& run) { return fairway_bug(problem, *problem.grid, run); }
 
 }  // namespace kb::planners

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planners/methods.h"
+
 namespace kb::planners {
 namespace {
 
@@ -112,9 +114,6 @@ Result plan_fuzzy(const Problem& problem, const FuzzyParameters& parameters, con
 }
 
 // ---- the methods
-Result run_fuzzy(const Problem& problem, const RunOptions& run);
-Result run_fuzzy_visits(const Problem& problem, const RunOptions& run);
-
 Result run_fuzzy(const Problem& problem, const RunOptions& run) { return plan_fuzzy(problem, {}, run); }
 Result run_fuzzy_visits(const Problem& problem, const RunOptions& run) {
   FuzzyParameters parameters;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planners/genetic_walks.h"
+#include "planners/methods.h"
 #include "planners/room.h"
 
 namespace kb::planners {
@@ -195,16 +196,12 @@ class Evolution {
   Individual make_child(Dice& dice) {
     Individual child;
     const Individual& parent = select(dice);
-    GeneticCounts& counts = report_.counts;
-    if (dice.chance(options_.crossover_chance)) {
-      if (operators_.cross(parent.walk, select(dice).walk, dice, child.walk, counts)) ++counts.crossovers;
-    } else {
-      child.walk = parent.walk;
-    }
-    if (dice.chance(options_.mutation_chance) && operators_.mutate(child.walk, dice)) ++counts.mutations;
-    for (std::uint32_t i = 0; i < options_.straightenings; ++i) counts.straightened += operators_.straighten(child.walk, dice);
+    if (dice.chance(options_.crossover_chance)) operators_.cross(parent.walk, select(dice).walk, dice, child.walk);
+    else child.walk = parent.walk;
+    if (dice.chance(options_.mutation_chance)) operators_.mutate(child.walk, dice);
+    for (std::uint32_t i = 0; i < options_.straightenings; ++i) operators_.straighten(child.walk, dice);
     // Among moving obstacles, waits and detours that look like loops may be what keeps a walk free of conflicts.
-    if (!waits() || dice.below(4) == 0) counts.smoothed += operators_.erase_loops(child.walk);
+    if (!waits() || dice.below(4) == 0) operators_.erase_loops(child.walk);
     if (waits()) repair(child, dice);
     return child;
   }
@@ -229,7 +226,6 @@ class Evolution {
       if (trial.conflicts > child.conflicts) continue;
       if (trial.conflicts == child.conflicts && trial.first_conflict <= child.first_conflict) continue;
       std::swap(child, trial);
-      ++report_.counts.repaired;
     }
   }
 
@@ -295,7 +291,6 @@ GeneticReport evolve(const Problem& problem, const RunOptions& run, const Geneti
   return Evolution(problem, run, options).go();
 }
 
-Result run_genetic(const Problem& problem, const RunOptions& run);
 Result run_genetic(const Problem& problem, const RunOptions& run) { return evolve(problem, run).result; }
 
 }  // namespace kb::planners

@@ -45,17 +45,10 @@ struct GeneticOptions {
   std::uint32_t horizon = 0;           ///< the most steps of a walk, the depth of planning; 0: no limit
 };
 
-/// How often each operator succeeded: `straightened` and `smoothed` made a walk shorter, `repaired` reduced or delayed its conflicts, and
-/// the others made a legal walk.
-struct GeneticCounts {
-  std::uint64_t crossovers = 0, joined = 0, mutations = 0, straightened = 0, smoothed = 0, repaired = 0;
-};
-
 struct GeneticReport {
   Result result;
   std::vector<double> best_fitness;    ///< of the best individual, by generation; never falls among feasible ones
   std::vector<CellIndex> shortest;     ///< the shortest feasible walk found, which need not be the fittest
-  GeneticCounts counts;
 };
 
 /// Plans. kReached with the fittest walk if it is free of conflicts; kUnreachable by the flood fill; kLimit if no individual is feasible in

@@ -173,7 +173,7 @@ std::size_t WalkOperators::shortest_cut(const Walk& head, const Walk& tail) {
   return best;
 }
 
-bool WalkOperators::cross(const Walk& head, const Walk& tail, Dice& dice, Walk& child, GeneticCounts& counts) {
+bool WalkOperators::cross(const Walk& head, const Walk& tail, Dice& dice, Walk& child) {
   mark(head);
   common_.clear();
   for (std::size_t i = 1; i + 1 < tail.size(); ++i) {
@@ -182,7 +182,6 @@ bool WalkOperators::cross(const Walk& head, const Walk& tail, Dice& dice, Walk& 
   if (common_.empty()) {
     const bool joined = join_nearby(head, tail, dice, child);
     if (!joined) child = head;
-    counts.joined += joined ? 1 : 0;
     return joined;
   }
   const bool any = dice.below(2) == 0;

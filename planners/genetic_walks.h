@@ -35,7 +35,7 @@ class WalkOperators {
   /// Makes a child from the head of one walk up to a cell that both visit, and the tail of the other from there. The cell is random, or the
   /// one that makes the child shortest. Without a common cell, two nodes at most 3 cells apart are joined by a digital line. If that fails
   /// too, returns false and a copy of the first walk.
-  bool cross(const Walk& head, const Walk& tail, Dice& dice, Walk& child, GeneticCounts& counts);
+  bool cross(const Walk& head, const Walk& tail, Dice& dice, Walk& child);
 
   /// Replaces the stretch between two random nodes at most 30 apart by a random walk. With waits, may instead stay a step longer or shorter
   /// somewhere.

@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "planners/method.h"
+#include "planners/methods.h"
 #include "planners/neural.h"
 #include "planners/shortest.h"
 
@@ -192,12 +192,6 @@ Result plan_neural(const Problem& problem, const NeuralParameters& parameters, c
 }
 
 // ---- the methods
-Result run_neural(const Problem& problem, const RunOptions& run);
-Result run_neural_literal(const Problem& problem, const RunOptions& run);
-Result run_neural_fixed(const Problem& problem, const RunOptions& run);
-Result run_neural_log(const Problem& problem, const RunOptions& run);
-Picture draw_neural(const Problem& problem, const Result& result);
-
 Result run_neural(const Problem& problem, const RunOptions& run) {
   NeuralParameters parameters;
   parameters.stop = StopWhen::kStartActive;

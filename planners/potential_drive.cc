@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "planners/check.h"
-#include "planners/method.h"
+#include "planners/methods.h"
 #include "planners/potential.h"
 #include "planners/trap.h"
 #include "planners/well.h"
@@ -244,13 +244,6 @@ Result drive_by_potential(const PotentialField& field, const Problem& problem, c
 }
 
 // ---- the methods
-Result run_potential(const Problem& problem, const RunOptions& run);
-Result run_potential_parabolic(const Problem& problem, const RunOptions& run);
-Result run_potential_combined(const Problem& problem, const RunOptions& run);
-Result run_potential_dynamic(const Problem& problem, const RunOptions& run);
-Picture draw_potential(const Problem& problem, const Result& result);
-Picture draw_potential_parabolic(const Problem& problem, const Result& result);
-
 Result run_potential(const Problem& problem, const RunOptions& run) {
   return run_potential_as(problem, run, Attraction::kConic, Drive::kKinematic);
 }

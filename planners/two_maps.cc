@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "planners/check.h"
-#include "planners/method.h"
+#include "planners/methods.h"
 #include "planners/shortest.h"
 #include "planners/trap.h"
 
@@ -174,7 +174,6 @@ Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters
   return result;
 }
 
-Result run_two_maps(const Problem& problem, const RunOptions& run);
 Result run_two_maps(const Problem& problem, const RunOptions& run) { return plan_two_maps(problem, {}, run); }
 
 }  // namespace kb::planners

@@ -44,7 +44,6 @@ TEST_P(Operators, give_legal_walks_between_the_same_ends) {
       to = dice.below(grid.size());
     }
     WalkOperators operators(grid, GetParam());
-    GeneticCounts counts;
     Walk a, b, child;
     ASSERT_TRUE(operators.walk(from, to, 0.1, 60'000, dice, a));
     ASSERT_TRUE(operators.walk(from, to, 0.4, 60'000, dice, b));
@@ -54,7 +53,7 @@ TEST_P(Operators, give_legal_walks_between_the_same_ends) {
       ASSERT_EQ(walk.back(), to) << after;
     };
     for (int round = 0; round < 200; ++round) {
-      operators.cross(a, b, dice, child, counts);
+      operators.cross(a, b, dice, child);
       holds(child, "crossing");
       operators.mutate(child, dice);
       holds(child, "mutation");
