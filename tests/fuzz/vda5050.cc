@@ -111,10 +111,10 @@ class Yard {
     if ((byte(2) & 64) != 0) progress.at = Whereabouts{{std::string(1, static_cast<char>('a' + ((byte(2) >> 3) & 7))), (byte(3) & 8) != 0 ? "E" : "W"}, 1.0, (byte(3) & 16) != 0};
     Condition condition;
     if ((byte(1) & 192) == 192) condition.mode = "MANUAL";
-    std::vector<DeedWord> words;
+    std::vector<HostActionState> words;
     constexpr const char* kWords[] = {"running", "paused", "finished", "failed"};
-    for (const Deed& deed : vehicle_.deeds()) {
-      if ((byte(3) & 1) != 0) words.push_back({deed.id, kWords[(byte(3) >> 1) & 3], ""});
+    for (const HostAction& action : vehicle_.host_actions()) {
+      if ((byte(3) & 1) != 0) words.push_back({action.id, kWords[(byte(3) >> 1) & 3], ""});
     }
     vehicle_.observe(progress, condition, words, us_);
   }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kPressAgainUs = 500'000;   // a button without effect is pressed again: the mind had no tick yet, or something kept the robot from setting out
 constexpr std::int64_t kLostUs = 5'000'000;         // a robot that has lost what it follows for so long does not find it again by itself
-constexpr std::size_t kMostDeedBytes = wire::kLongestLine / 2;   // half of an answer; the other half is for the rest of it
+constexpr std::size_t kMostActionBytes = wire::kLongestLine / 2;   // half of an answer; the other half is for the rest of it
 constexpr float kTurnTau_s = 0.2f;
 constexpr std::int64_t kSilentUs = 1'000'000;       // a robot that has been silent for so long has stopped, since its base has a watchdog
 
@@ -41,7 +41,7 @@ void OrderDesk::hear_line(const wire::Line& line) {
   t_us_ = exchange_.now_us();
   here_ = line.tag ? line.tag->landmark.text : std::string();
   wire::put(line.vehicle, condition_);
-  for (const wire::ActionWord& word : line.actions) words_.push_back({word.id, word.status, word.result});
+  action_states_.insert(action_states_.end(), line.actions.begin(), line.actions.end());
   hear_turn(line.senses, dt_s);
   speed_m_s_ = static_cast<double>(line.senses.odometry_known ? line.senses.speed_m_s : exchange_.wheels().speed_m_s);
   if (!line.senses.odometry_known) return;
@@ -106,25 +106,25 @@ vda5050::Progress OrderDesk::progress() const {
 void OrderDesk::deal(std::int64_t t_us) {
   t_us = dealt_us_ = std::max(dealt_us_, t_us);
   const std::int64_t utc_us = link_.utc_us(t_us);
-  vehicle_.observe(progress(), condition_, words_, utc_us);
-  words_.clear();
+  vehicle_.observe(progress(), condition_, action_states_, utc_us);
+  action_states_.clear();
   while (const auto message = link_.next(t_us)) vehicle_.hear(*message, utc_us);
   if (const auto place = vehicle_.take_place()) exchange_.put(place->road.landmark, place->road.exit, place->along_m);
   set_task();
-  give_deeds();
+  give_actions();
   for (const vda5050::Message& message : vehicle_.take_messages()) link_.send(message, t_us);
 }
 
 /// Gives the host as many actions as fit into a line. It gets the others when these are done.
-void OrderDesk::give_deeds() {
+void OrderDesk::give_actions() {
   constexpr std::size_t kAround = 64, kEscaped = 6;   // `"id":"",...`; a byte as `\u0001`
-  std::vector<wire::Action> actions;
+  std::vector<vda5050::HostAction> actions = vehicle_.host_actions();
   std::size_t bytes = 0;
-  for (const vda5050::Deed& deed : vehicle_.deeds()) {
-    bytes += kAround + kEscaped * (deed.id.size() + deed.type.size()) + deed.parameters.size();
-    if (bytes > kMostDeedBytes) break;
-    actions.push_back({deed.id, deed.type, deed.parameters});
-  }
+  const auto rest = std::find_if(actions.begin(), actions.end(), [&](const vda5050::HostAction& action) {
+    bytes += kAround + kEscaped * (action.id.size() + action.type.size()) + action.parameters.size();
+    return bytes > kMostActionBytes;
+  });
+  actions.erase(rest, actions.end());
   exchange_.set_actions(std::move(actions));
 }
 

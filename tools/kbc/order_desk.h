@@ -58,7 +58,7 @@ class OrderDesk {
   [[nodiscard]] bool take_way(const vda5050::Task& task);
   void press_start();
   void deal(std::int64_t t_us);
-  void give_deeds();
+  void give_actions();
   [[nodiscard]] vda5050::Progress progress() const;
 
   const OrderMissions& missions_;
@@ -86,7 +86,7 @@ class OrderDesk {
   std::optional<float> turned_rad_;
   std::string here_;
   vda5050::Condition condition_;
-  std::vector<vda5050::DeedWord> words_;
+  std::vector<vda5050::HostActionState> action_states_;
 };
 
 }  // namespace kb::cli

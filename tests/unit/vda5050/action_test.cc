@@ -19,17 +19,17 @@ class Actions : public AtTheFirst {
 
 TEST_F(Actions, HardRunsAlone) {
   order_at_first({action("s", "drop", "SOFT"), action("n", "pick", "NONE"), action("h", "pick", "HARD"), action("l", "drop", "NONE")});
-  EXPECT_EQ(deeds(), "s n");
+  EXPECT_EQ(host_actions(), "s n");
   EXPECT_EQ(status("h"), "WAITING");
   tell("s", "finished");
-  EXPECT_EQ(deeds(), "n");
+  EXPECT_EQ(host_actions(), "n");
   tell("n", "finished");
   look();
-  EXPECT_EQ(deeds(), "h");
+  EXPECT_EQ(host_actions(), "h");
   EXPECT_EQ(status("l"), "WAITING");
   EXPECT_EQ(way(), "");
   tell("h", "finished", "42");
-  EXPECT_EQ(deeds(), "l");
+  EXPECT_EQ(host_actions(), "l");
   EXPECT_EQ(way(), "L1.E L2") << "NONE goes on while it drives";
   EXPECT_EQ(state["actionStates"][2]["resultDescription"], "42");
 }
@@ -48,7 +48,7 @@ TEST_F(Actions, AnOrderIsNotOverBeforeItsActionsAre) {
 TEST_F(Actions, WhatNobodyDoesIsOverInTime) {
   order_at_first({action("b", "beep")});
   EXPECT_EQ(status("b"), "RUNNING");
-  EXPECT_EQ(deeds(), "");
+  EXPECT_EQ(host_actions(), "");
   look(1.9);
   EXPECT_EQ(status("b"), "RUNNING");
   look(0.1);
@@ -72,9 +72,9 @@ TEST_F(Actions, TheHostIsGivenParametersAndSaysHowFarItIs) {
   Json pick = action("p", "pick");
   pick["actionParameters"] = Json::parse(R"([{"key":"height","value":1.20},{"key":"of","value":{"a":["\n",null,true]}}])");
   order_at_first({pick});
-  ASSERT_EQ(vehicle.deeds().size(), 1u);
-  EXPECT_EQ(vehicle.deeds()[0].type, "pick");
-  EXPECT_EQ(vehicle.deeds()[0].parameters, R"({"height":1.2,"of":{"a":["\n",null,true]}})");
+  ASSERT_EQ(vehicle.host_actions().size(), 1u);
+  EXPECT_EQ(vehicle.host_actions()[0].type, "pick");
+  EXPECT_EQ(vehicle.host_actions()[0].parameters, R"({"height":1.2,"of":{"a":["\n",null,true]}})");
   tell("p", "paused");
   EXPECT_EQ(status("p"), "PAUSED");
   instruct("s", "startPause");
@@ -98,10 +98,10 @@ TEST_F(Actions, AnActionWithMoreParametersThanALineOfTheHostHoldsIsRefused) {
   look();
   say("order", with("A", 70'000));
   EXPECT_EQ(last_error(), "nodes[0].actions[0].actionParameters are longer than 65536 bytes");
-  EXPECT_EQ(deeds(), "");
+  EXPECT_EQ(host_actions(), "");
   say("order", with("B", 60'000));
   look();
-  EXPECT_EQ(deeds(), "aB");
+  EXPECT_EQ(host_actions(), "aB");
 }
 
 TEST_F(Actions, AnActionThatFailsIsAnErrorAndTheOrderGoesOn) {
@@ -125,10 +125,10 @@ TEST_F(Actions, AnActionOfAnEdgeLastsAsLongAsTheEdge) {
   look();
   EXPECT_EQ(status("e"), "WAITING") << "it does not drive yet (6.10.2)";
   set_off();
-  EXPECT_EQ(deeds(), "e");
+  EXPECT_EQ(host_actions(), "e");
   EXPECT_EQ(status("f"), "WAITING");
   pass();
-  EXPECT_EQ(deeds(), "");
+  EXPECT_EQ(host_actions(), "");
   EXPECT_EQ(status("e"), "FINISHED");
   EXPECT_EQ(status("f"), "RUNNING");
   look(2.0);

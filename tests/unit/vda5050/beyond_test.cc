@@ -89,7 +89,7 @@ TEST_F(Beyond, WhatIsToBeDoneAtTheNodeIsDoneThere) {
   set_off();
   come_back();
   stop();
-  EXPECT_EQ(deeds(), "p");
+  EXPECT_EQ(host_actions(), "p");
   words = {{"p", "finished"}};
   look();
   EXPECT_EQ(vehicle.task().start, Start::kBefore);
@@ -187,7 +187,7 @@ TEST_F(Beyond, AnotherNodeAtTheSamePlaceIsBehindItToo) {
   come_back();
   EXPECT_EQ(state["lastNodeId"], "n2b");
   stop();
-  EXPECT_EQ(deeds(), "p");
+  EXPECT_EQ(host_actions(), "p");
 }
 
 TEST_F(Beyond, TheWayBackGrowsAsAnyOther) {

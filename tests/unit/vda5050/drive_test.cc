@@ -94,7 +94,7 @@ TEST_F(Stretches, AStretchEndsWhereTheVehicleHasToStand) {
   pass();
   EXPECT_EQ(status("p"), "WAITING") << "it still drives";
   stop();
-  EXPECT_EQ(deeds(), "p");
+  EXPECT_EQ(host_actions(), "p");
   look(5);
   EXPECT_EQ(way(), "");
   words = {{"p", "finished"}};

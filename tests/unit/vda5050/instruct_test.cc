@@ -104,7 +104,7 @@ TEST_F(Instants, WhatDrivesCanOnlyDoWhatIsDoneMeanwhile) {
   instruct("n", "pick", "NONE");
   instruct("h", "pick", "HARD");
   EXPECT_EQ(status("n"), "RUNNING");
-  EXPECT_EQ(deeds(), "n");
+  EXPECT_EQ(host_actions(), "n");
   EXPECT_EQ(status("h"), "FAILED");
   EXPECT_EQ(errors(), "instantActionError");
 }

@@ -128,7 +128,7 @@ TEST_F(Yard, WhoTakesTheVehicleInHandEndsItsOrder) {
     EXPECT_EQ(left(), "") << mode;
     EXPECT_EQ(way(), "");
     EXPECT_EQ(status(std::string("p") + mode), "FAILED");
-    EXPECT_EQ(deeds(), "");
+    EXPECT_EQ(host_actions(), "");
     say("order", order("B", 0, {"n1", "n2"}));
     EXPECT_EQ(state["orderId"], mode);
     EXPECT_EQ(errors(), "orderError") << "the master is not in control";

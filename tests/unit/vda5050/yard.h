@@ -169,9 +169,9 @@ class Yard : public testing::Test {
     }
     return "";
   }
-  std::string deeds() const {
+  std::string host_actions() const {
     std::string out;
-    for (const Deed& deed : vehicle.deeds()) out += (out.empty() ? "" : " ") + deed.id;
+    for (const HostAction& action : vehicle.host_actions()) out += (out.empty() ? "" : " ") + action.id;
     return out;
   }
 
@@ -180,7 +180,7 @@ class Yard : public testing::Test {
   std::int64_t us = 0;
   Progress progress;
   Condition condition;
-  std::vector<DeedWord> words;
+  std::vector<HostActionState> words;
   std::vector<std::pair<Message, Json>> sent;
   Json state;
   int states = 0;

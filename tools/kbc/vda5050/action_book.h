@@ -24,7 +24,7 @@ enum class Status : std::uint8_t { kWaiting, kRunning, kPaused, kFinished, kFail
 /// `WAITING`.
 [[nodiscard]] std::string_view status_name(Status status);
 
-struct Doing {
+struct ActionState {
   enum class Origin : std::uint8_t { kNode, kEdge, kInstant };
   Action action;
   Origin origin = Origin::kNode;
@@ -47,8 +47,8 @@ class ActionBook {
   explicit ActionBook(std::vector<Skill> skills) : skills_(std::move(skills)) {}
   [[nodiscard]] const Skill* skill(std::string_view type) const;
   [[nodiscard]] const std::vector<Skill>& skills() const { return skills_; }
-  [[nodiscard]] const std::vector<Doing>& all() const { return all_; }   ///< as they came
-  [[nodiscard]] const Doing* find(std::string_view id) const;
+  [[nodiscard]] const std::vector<ActionState>& all() const { return all_; }   ///< as they came
+  [[nodiscard]] const ActionState* find(std::string_view id) const;
 
   /// Adds, as waiting, all actions of the edges and of the nodes except the first; with `first`, that of the first node too.
   void plan(const std::vector<Node>& nodes, const std::vector<Edge>& edges, bool first);
@@ -61,7 +61,7 @@ class ActionBook {
   void put_own(const Action& action, Status status, std::string result = {});
   void end_own(std::string_view id, Status status, std::string result = {});
 
-  void trigger(Doing::Origin origin, std::uint32_t sequence);
+  void trigger(ActionState::Origin origin, std::uint32_t sequence);
   /// The vehicle leaves an edge: actions that run there are over (6.10.2).
   void leave_edge(std::uint32_t sequence);
   /// The order is cancelled: waiting actions fail, and so does a running `waitForTrigger`. Other running actions are finished.
@@ -75,7 +75,7 @@ class ActionBook {
   /// Begins the actions that can begin. See note [in which order actions are done].
   void begin(bool stands);
   /// Takes what the host reports. Reports about actions that are not running are ignored.
-  void hear(const DeedWord& word);
+  void hear(const HostActionState& report);
 
   [[nodiscard]] bool order_live() const;         ///< whether an action of the order is not over
   [[nodiscard]] bool must_stand() const;         ///< whether a triggered action demands it
@@ -83,21 +83,21 @@ class ActionBook {
   [[nodiscard]] bool any_running() const;        ///< not counting those that the vehicle does itself
   [[nodiscard]] std::size_t instants_live() const;
   [[nodiscard]] std::size_t live() const;
-  [[nodiscard]] std::vector<Deed> deeds() const;
+  [[nodiscard]] std::vector<HostAction> host_actions() const;
   /// Whether something has changed since the last call. Forgets actions that were over long ago, so that an endless order does not fill
   /// the memory.
   [[nodiscard]] bool take_changed();
   /// Actions that have failed since the last call, except those that the master cancelled.
-  [[nodiscard]] std::vector<Doing> take_failures();
+  [[nodiscard]] std::vector<ActionState> take_failures();
 
  private:
-  void start(Doing& doing);
-  void end(Doing& doing, Status status, std::string result);
+  void start(ActionState& state);
+  void end(ActionState& state, Status status, std::string result);
   void tidy();
 
   std::vector<Skill> skills_;
-  std::vector<Doing> all_;
-  std::vector<Doing> failures_;
+  std::vector<ActionState> all_;
+  std::vector<ActionState> failures_;
   std::uint64_t begun_ = 0;
   bool changed_ = false, paused_ = false;
 };

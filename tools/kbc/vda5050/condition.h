@@ -1,4 +1,4 @@
-// What a robot's base reports about itself, in the terms of VDA 5050 2.1 (6.10.6).
+// What a robot's base and its host report, and what the host is to do, in the terms of VDA 5050 2.1 (6.10.6).
 #pragma once
 
 #include <array>
@@ -10,6 +10,18 @@ namespace kb::vda5050 {
 
 inline constexpr std::array<std::string_view, 4> kStops{"NONE", "AUTOACK", "MANUAL", "REMOTE"};
 inline constexpr std::array<std::string_view, 5> kModes{"AUTOMATIC", "SEMIAUTOMATIC", "MANUAL", "SERVICE", "TEACHIN"};
+
+/// Something that the host is to do besides driving.
+struct HostAction {
+  std::string id, type;
+  std::string parameters;     ///< JSON, an object in one line: `{"height":1.2}`; empty: `{}`
+};
+
+/// The host's report on it.
+struct HostActionState {
+  std::string id, status;     ///< `running`, `paused`, `finished` or `failed`
+  std::string result = {};    ///< for the master; may be empty
+};
 
 /// The defaults hold for what the base does not report.
 struct Condition {

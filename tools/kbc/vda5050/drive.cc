@@ -58,7 +58,7 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
   }
   if (reached > 0 && book.goes_back()) book.come_back(), arrive();
   for (const std::size_t node = stretch.node_at(reached); book.at() < node;) reach_next();
-  if (under_way() && !book.goes_back() && on_mission && driving) actions.trigger(Doing::Origin::kEdge, book.edges()[book.at()].sequence);
+  if (under_way() && !book.goes_back() && on_mission && driving) actions.trigger(ActionState::Origin::kEdge, book.edges()[book.at()].sequence);
   if (on_mission || paused) return;
   if (reached == all || (was_on_mission && stretch.ended_at(reached))) {
     stretch.close();
@@ -76,7 +76,7 @@ void Vehicle::State::reach_next() {
 
 void Vehicle::State::arrive() {
   if (at) came_by = at->road;
-  actions.trigger(Doing::Origin::kNode, book.last_sequence());
+  actions.trigger(ActionState::Origin::kNode, book.last_sequence());
   passed_m = 0.0;
   changed = true;
 }

@@ -15,8 +15,8 @@ void Vehicle::State::take_instant_actions(const std::string& payload, std::int64
   if (const auto* complaint = std::get_if<Complaint>(&read)) return complain(*complaint);
   for (const Action& action : std::get<std::vector<Action>>(read)) {
     const std::vector<std::pair<std::string, std::string>> about{{"topic", "instantActions"}, {"actionId", action.id}, {"actionType", action.type}};
-    if (const Doing* doing = actions.find(action.id); doing != nullptr) {
-      if (doing->action == action) continue;   // the master has sent it twice
+    if (const ActionState* known = actions.find(action.id); known != nullptr) {
+      if (known->action == action) continue;   // the master has sent it twice
       complain({"validationError", fmt::format("there is an action with actionId `{}` already", action.id), about});
     } else if (actions.instants_live() >= kMostInstants) {
       complain({"instantActionError", fmt::format("{} instant actions are not over yet", kMostInstants), about});

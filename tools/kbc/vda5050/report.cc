@@ -53,11 +53,11 @@ Out left_of(std::span<const Part> parts, const char* id) {
   return out;
 }
 
-Out action_states(const std::vector<Doing>& all) {
+Out action_states(const std::vector<ActionState>& all) {
   Out out = Out::array();
-  for (const Doing& doing : all) {
-    Out one{{"actionId", doing.action.id}, {"actionType", doing.action.type}, {"actionStatus", status_name(doing.status)}};
-    if (!doing.result.empty()) one["resultDescription"] = doing.result;
+  for (const ActionState& state : all) {
+    Out one{{"actionId", state.action.id}, {"actionType", state.action.type}, {"actionStatus", status_name(state.status)}};
+    if (!state.result.empty()) one["resultDescription"] = state.result;
     out.push_back(std::move(one));
   }
   return out;

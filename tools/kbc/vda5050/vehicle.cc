@@ -36,11 +36,11 @@ void Vehicle::hear(const Message& message, std::int64_t utc_us) {
   state_->finish(utc_us);
 }
 
-void Vehicle::observe(const Progress& progress, const Condition& condition, const std::vector<DeedWord>& words, std::int64_t utc_us) {
+void Vehicle::observe(const Progress& progress, const Condition& condition, const std::vector<HostActionState>& states, std::int64_t utc_us) {
   State& state = *state_;
   state.greet(utc_us);
   state.look(condition);
-  for (const DeedWord& word : words) state.actions.hear(word);
+  for (const HostActionState& report : states) state.actions.hear(report);
   const std::int64_t passed_us = std::max<std::int64_t>(utc_us - state.now_us, 0);   // if the clock was set back, no time has passed
   state.actions.pass(passed_us);
   state.now_us = utc_us;
@@ -53,7 +53,7 @@ void Vehicle::observe(const Progress& progress, const Condition& condition, cons
 const Task& Vehicle::task() const { return state_->stretch.task(); }
 std::optional<Whereabouts> Vehicle::take_place() { return std::exchange(state_->placed, std::nullopt); }
 bool Vehicle::obeys() const { return state_->obeys(); }
-std::vector<Deed> Vehicle::deeds() const { return state_->actions.deeds(); }
+std::vector<HostAction> Vehicle::host_actions() const { return state_->actions.host_actions(); }
 std::vector<Message> Vehicle::take_messages() { return std::exchange(state_->outbox, {}); }
 Message Vehicle::farewell(std::int64_t utc_us) { return connection_message(state_->identity, "OFFLINE", state_->connections++, utc_us); }
 Message Vehicle::will(std::int64_t utc_us) const { return connection_message(state_->identity, "CONNECTIONBROKEN", state_->connections, utc_us); }
@@ -101,7 +101,7 @@ void Vehicle::State::begin(Order order) {
   passed_m = 0.0;
   book.begin(std::move(order));
   if (beyond() != nullptr && !book.nodes().front().actions.empty()) book.go_back();   // see note [beyond a node]
-  else actions.trigger(Doing::Origin::kNode, book.last_sequence());
+  else actions.trigger(ActionState::Origin::kNode, book.last_sequence());
 }
 
 /// Why a valid order is not taken all the same. The vehicle may be driven by others, or unable to set off from where it stands, or unable to do
@@ -115,9 +115,9 @@ std::optional<Complaint> Vehicle::State::object_to(const Order& order, bool upda
   std::optional<Complaint> complaint;
   std::set<std::string_view> taken;
   const std::uint32_t base_end = update ? book.nodes()[book.base_end()].sequence : 0;
-  for (const Doing& doing : actions.all()) {   // collects the ids of those that stay when the order is taken
-    const bool instant = doing.origin == Doing::Origin::kInstant;
-    if (update ? instant || doing.sequence <= base_end : instant && !doing.over()) taken.insert(doing.action.id);
+  for (const ActionState& known : actions.all()) {   // collects the ids of those that stay when the order is taken
+    const bool instant = known.origin == ActionState::Origin::kInstant;
+    if (update ? instant || known.sequence <= base_end : instant && !known.over()) taken.insert(known.action.id);
   }
   std::size_t live = actions.live();
   const auto good = [&](const Action& action) {
@@ -157,7 +157,7 @@ void Vehicle::State::clear_order(const std::string& why) {
 }
 
 void Vehicle::State::finish(std::int64_t utc_us) {
-  for (const Doing& failed : actions.take_failures()) {
+  for (const ActionState& failed : actions.take_failures()) {
     complain({"actionFailed", fmt::format("`{}` failed{}{}", failed.action.type, failed.result.empty() ? "" : ": ", failed.result), {{"actionId", failed.action.id}, {"actionType", failed.action.type}}});
   }
   if (actions.take_changed()) changed = true;

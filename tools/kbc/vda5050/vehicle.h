@@ -54,18 +54,6 @@ struct Task {
   [[nodiscard]] std::size_t visits() const { return passed + way.size(); }
 };
 
-/// An action that the host is to do now.
-struct Deed {
-  std::string id, type;
-  std::string parameters;     ///< JSON, an object: `{"height":1.2}`
-};
-
-/// The host's report on a deed: `running`, `paused`, `finished`, `failed`.
-struct DeedWord {
-  std::string id, status;
-  std::string result = {};    ///< for the master; may be empty
-};
-
 /// The progress of the task.
 struct Progress {
   std::uint64_t task = 0;         ///< the number of the task
@@ -108,7 +96,7 @@ class Vehicle {
   /// Takes a message of the master. If it is refused, the next state reports an error. Never throws because of its contents.
   void hear(const Message& message, std::int64_t utc_us);
   /// To be called every control period.
-  void observe(const Progress& progress, const Condition& condition, const std::vector<DeedWord>& words, std::int64_t utc_us);
+  void observe(const Progress& progress, const Condition& condition, const std::vector<HostActionState>& states, std::int64_t utc_us);
 
   [[nodiscard]] const Task& task() const;
   /// The position given by the master (`initPosition`) since the last call; nothing if there was none.
@@ -116,7 +104,7 @@ class Vehicle {
   /// Whether in its mode it drives by itself and is not driven by hand.
   [[nodiscard]] bool obeys() const;
   /// The actions to be done now, in the order of their beginning.
-  [[nodiscard]] std::vector<Deed> deeds() const;
+  [[nodiscard]] std::vector<HostAction> host_actions() const;
   /// The messages to send, oldest first; each is given once.
   [[nodiscard]] std::vector<Message> take_messages();
   /// The last message: the vehicle leaves (`connection` OFFLINE).

@@ -38,9 +38,9 @@ void append_truth(std::string& out, std::string_view key, bool value) {
   out += value ? "true" : "false";
 }
 
-void append_actions(std::string& out, const std::vector<Action>& actions) {
+void append_actions(std::string& out, const std::vector<vda5050::HostAction>& actions) {
   append_key(out, "actions");
-  program::append_items(out, actions, [&](const Action& action) {
+  program::append_items(out, actions, [&](const vda5050::HostAction& action) {
     out += "{\"id\":";
     append_json(out, action.id);
     append_key(out, "type");

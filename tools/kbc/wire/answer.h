@@ -10,15 +10,10 @@
 
 #include <waymark/controllers/senses.h>
 
+#include "tools/kbc/vda5050/condition.h"
 #include "tools/kbc/wire/mistake.h"
 
 namespace kb::wire {
-
-/// Something that the host is to do besides driving, for as long as it is in the answers.
-struct Action {
-  std::string id, type;
-  std::string parameters;                ///< JSON, an object in one line; empty: `{}`
-};
 
 struct Answer {
   std::optional<std::int64_t> t_us;      ///< time of the line that it answers; nothing: that line could not be read
@@ -31,7 +26,7 @@ struct Answer {
   mts::Plight plight = mts::Plight::kNone;
   bool lost = false;                     ///< the controller has lost what it follows, or driven all of it
   bool waits = false;                    ///< it stands until a button is pressed
-  std::vector<Action> actions;           ///< in the order of their beginning; not read back
+  std::vector<vda5050::HostAction> actions;   ///< each as long as the host is to do it, in the order of their beginning; not read back
   std::string mind;                      ///< the tick before this answer, JSON as `kbc run --trace` writes it; empty: there was none
   std::optional<std::vector<std::string>> seen;   ///< only with a tick: the facts seen after it
 };

@@ -75,7 +75,7 @@ class Exchange {
   /// Whether it stands until a button is pressed: see note [a host that was away].
   [[nodiscard]] bool waits() const { return clock_.waits; }
   /// What the host is to do besides driving, in each answer from the next one on.
-  void set_actions(std::vector<Action> actions) { actions_ = std::move(actions); }
+  void set_actions(std::vector<vda5050::HostAction> actions) { actions_ = std::move(actions); }
   /// The line answered last; nothing if it was not understood.
   [[nodiscard]] const std::optional<Line>& line() const { return line_; }
   /// The time of that line by the host's clock, as if that had never been set back; that of the line before while its `t` may be wrong.
@@ -120,7 +120,7 @@ class Exchange {
   trace::CellNames names_;
   std::optional<Mistake> mistake_, warning_;
   std::optional<Line> line_;
-  std::vector<Action> actions_;
+  std::vector<vda5050::HostAction> actions_;
 
   // The names of the present line, looked up.
   sim::TagHeard tag_;

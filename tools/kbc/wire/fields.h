@@ -60,6 +60,7 @@ template <class Target>
 struct Field {
   std::string_view name;
   void (*read)(Reading& reading, const Json& json, Target& target);
+  std::string_view unit = {}, about = {};   ///< for help; empty where none is given
 };
 
 /// The object or list that begins at `begin` in `text`, which must be JSON, up to its closing bracket.

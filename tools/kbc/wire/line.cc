@@ -79,38 +79,45 @@ constexpr std::array kFields{
       reading.number("t", json, {0.0, kLatest}, draft.t_s);
       draft.t = true;
       draft.line.t_at = json.span;
-    }},
-    Field<Draft>{"line", read_floor},
+    }, "s", "0 and more, of any zero; it grows from line to line. Must be there, all else need not"},
+    Field<Draft>{"line", read_floor,
+      "0 bright to 1 dark", "5 floor sensors in a row across the front, the first at the left; or an object, of a sensor that measures the line: left_m, if there is one, in m to the left, and across: true on paint that lies across"},
     Field<Draft>{"range_m", [](Reading& reading, const Json& json, Draft& draft) {
       reading.numbers("range_m", json, kRanges, draft.line.senses.range_m);
       draft.line.senses.range_known = true;
-    }},
+    }, "m", "8 range finders, every 45 degrees counter-clockwise, the first ahead: from the robot's centre; 4 (times the robot's size) and more: nothing is there; null: unknown"},
     Field<Draft>{"compass_rad", [](Reading& reading, const Json& json, Draft& draft) {
       reading.number("compass_rad", json, {-kFullTurn, kFullTurn}, draft.line.senses.heading_rad);
       draft.line.senses.heading_known = true;
-    }},
+    }, "rad", "counter-clockwise from east"},
     Field<Draft>{"odometry_x_m", [](Reading& reading, const Json& json, Draft& draft) {
       reading.number("odometry_x_m", json, kMetres, draft.line.senses.x_m);
       draft.x = true;
-    }},
+    }, "m", "east by the wheels, of any zero"},
     Field<Draft>{"odometry_y_m", [](Reading& reading, const Json& json, Draft& draft) {
       reading.number("odometry_y_m", json, kMetres, draft.line.senses.y_m);
       draft.y = true;
-    }},
+    }, "m", "north by the wheels, of any zero"},
     Field<Draft>{"odometry_m_s", [](Reading& reading, const Json& json, Draft& draft) {
       reading.number("odometry_m_s", json, kSpeeds, draft.line.senses.speed_m_s);
       draft.line.senses.odometry_known = true;
-    }},
+    }, "m/s", "by the wheels, backwards negative"},
     Field<Draft>{"odometry_turned_rad", [](Reading& reading, const Json& json, Draft& draft) {
       reading.number("odometry_turned_rad", json, kAngles, draft.line.senses.turned_rad);
       draft.line.senses.turned_known = true;
-    }},
-    Field<Draft>{"touched", [](Reading& reading, const Json& json, Draft& draft) { reading.truth("touched", json, draft.line.senses.touched); }},
-    Field<Draft>{"tag", read_tag},
-    Field<Draft>{"buttons", [](Reading& reading, const Json& json, Draft& draft) { read_names(reading, "buttons", json, draft.line.buttons); }},
-    Field<Draft>{"facts", read_facts},
-    Field<Draft>{"vehicle", [](Reading& reading, const Json& json, Draft& draft) { read_vehicle(reading, json, draft.line.vehicle); }},
-    Field<Draft>{"actions", [](Reading& reading, const Json& json, Draft& draft) { read_actions(reading, json, draft.line.actions); }},
+    }, "rad", "by the wheels or a gyroscope, counter-clockwise, of any zero"},
+    Field<Draft>{"touched", [](Reading& reading, const Json& json, Draft& draft) { reading.truth("touched", json, draft.line.senses.touched); },
+      "true or false", "the bumper"},
+    Field<Draft>{"tag", read_tag,
+      "object", "{} while none is read, else landmark and exit; safe: false and closed: [exits] where the crossing or roads are barred"},
+    Field<Draft>{"buttons", [](Reading& reading, const Json& json, Draft& draft) { read_names(reading, "buttons", json, draft.line.buttons); },
+      "list of names", "those that are pressed; each a fact"},
+    Field<Draft>{"facts", read_facts,
+      "object", "what the host says itself: names and certainties from -1 to 1; it goes before what is perceived"},
+    Field<Draft>{"vehicle", [](Reading& reading, const Json& json, Draft& draft) { read_vehicle(reading, json, draft.line.vehicle); },
+      "object", "of who drives by --orders: battery in percent, charging, field_violation; e_stop: NONE, AUTOACK, MANUAL or REMOTE; mode: AUTOMATIC, SEMIAUTOMATIC, MANUAL, SERVICE or TEACHIN"},
+    Field<Draft>{"actions", [](Reading& reading, const Json& json, Draft& draft) { read_actions(reading, json, draft.line.actions); },
+      "list of objects", "of who drives by --orders: how far an action of the answers is: id, status (running, paused, finished or failed), result"},
     Field<Draft>{"answered", [](Reading&, const Json&, Draft&) {}},   // recordings have it too
 };
 
@@ -141,24 +148,12 @@ std::variant<Line, Mistake> read_line(std::string_view text) {
   return std::move(draft.line);
 }
 
-const std::vector<FieldHelp>& line_fields() {
-  static const std::vector<FieldHelp> kHelp{
-      {"t", "s", "0 and more, of any zero; it grows from line to line. Must be there, all else need not"},
-      {"line", "0 bright to 1 dark", "5 floor sensors in a row across the front, the first at the left; or an object, of a sensor that measures the line: left_m, if there is one, in m to the left, and across: true on paint that lies across"},
-      {"range_m", "m", "8 range finders, every 45 degrees counter-clockwise, the first ahead: from the robot's centre; 4 (times the robot's size) and more: nothing is there; null: unknown"},
-      {"compass_rad", "rad", "counter-clockwise from east"},
-      {"odometry_x_m", "m", "east by the wheels, of any zero"},
-      {"odometry_y_m", "m", "north by the wheels, of any zero"},
-      {"odometry_m_s", "m/s", "by the wheels, backwards negative"},
-      {"odometry_turned_rad", "rad", "by the wheels or a gyroscope, counter-clockwise, of any zero"},
-      {"touched", "true or false", "the bumper"},
-      {"tag", "object", "{} while none is read, else landmark and exit; safe: false and closed: [exits] where the crossing or roads are barred"},
-      {"buttons", "list of names", "those that are pressed; each a fact"},
-      {"facts", "object", "what the host says itself: names and certainties from -1 to 1; it goes before what is perceived"},
-      {"vehicle", "object", "of who drives by --orders: battery in percent, charging, field_violation; e_stop: NONE, AUTOACK, MANUAL or REMOTE; mode: AUTOMATIC, SEMIAUTOMATIC, MANUAL, SERVICE or TEACHIN"},
-      {"actions", "list of objects", "of who drives by --orders: how far an action of the answers is: id, status (running, paused, finished or failed), result"},
-  };
-  return kHelp;
+std::vector<FieldHelp> line_fields() {
+  std::vector<FieldHelp> help;
+  for (const Field<Draft>& field : kFields) {
+    if (!field.about.empty()) help.push_back({field.name, field.unit, field.about});
+  }
+  return help;
 }
 
 namespace {

@@ -40,7 +40,7 @@ struct Line {
   std::vector<Name> buttons;       ///< those that are pressed
   std::vector<Said> facts;
   Vehicle vehicle;
-  std::vector<ActionWord> actions;
+  std::vector<vda5050::HostActionState> actions;
   source::Span t_at{};             ///< the place of the time
 };
 
@@ -55,6 +55,6 @@ struct Line {
 
 /// The names and meanings of the fields, for `kbc drive --describe`.
 struct FieldHelp { std::string_view name, unit, about; };
-[[nodiscard]] const std::vector<FieldHelp>& line_fields();
+[[nodiscard]] std::vector<FieldHelp> line_fields();
 
 }  // namespace kb::wire

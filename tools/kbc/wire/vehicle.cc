@@ -22,13 +22,13 @@ constexpr std::array kVehicleFields{
 /// An action of the list while it is read; `actions[2].` precedes the names of its fields in messages.
 struct ActionDraft {
   std::string prefix;
-  ActionWord word;
+  vda5050::HostActionState state;
 };
 
 constexpr std::array kActionFields{
-    Field<ActionDraft>{"id", [](Reading& reading, const Json& json, ActionDraft& draft) { reading.text(draft.prefix + "id", json, draft.word.id), draft.word.id_at = json.span; }},
-    Field<ActionDraft>{"status", [](Reading& reading, const Json& json, ActionDraft& draft) { reading.word(draft.prefix + "status", json, kStatuses, draft.word.status); }},
-    Field<ActionDraft>{"result", [](Reading& reading, const Json& json, ActionDraft& draft) { reading.text(draft.prefix + "result", json, draft.word.result); }},
+    Field<ActionDraft>{"id", [](Reading& reading, const Json& json, ActionDraft& draft) { reading.text(draft.prefix + "id", json, draft.state.id); }},
+    Field<ActionDraft>{"status", [](Reading& reading, const Json& json, ActionDraft& draft) { reading.word(draft.prefix + "status", json, kStatuses, draft.state.status); }},
+    Field<ActionDraft>{"result", [](Reading& reading, const Json& json, ActionDraft& draft) { reading.text(draft.prefix + "result", json, draft.state.result); }},
 };
 
 }  // namespace
@@ -45,16 +45,16 @@ void put(const Vehicle& said, vda5050::Condition& condition) {
   condition.mode = said.mode.value_or(condition.mode);
 }
 
-void read_actions(Reading& reading, const Json& json, std::vector<ActionWord>& words) {
+void read_actions(Reading& reading, const Json& json, std::vector<vda5050::HostActionState>& states) {
   if (!reading.is("actions", json, Json::Kind::kList)) return;
   for (std::size_t i = 0; i < json.parts.size() && !reading.mistake(); ++i) {
     const Json& part = json.parts[i];
     ActionDraft draft{fmt::format("actions[{}].", i), {}};
     if (!reading.is(fmt::format("actions[{}]", i), part, Json::Kind::kObject)) return;
     read_fields<ActionDraft>(reading, draft.prefix, part, kActionFields, draft);
-    if (draft.word.id.empty()) reading.missing(draft.prefix + "id", "the answer that told of the action says it", part.span);
-    if (draft.word.status.empty()) reading.missing(draft.prefix + "status", "it says how far the action is", part.span);
-    words.push_back(std::move(draft.word));
+    if (draft.state.id.empty()) reading.missing(draft.prefix + "id", "the answer that told of the action says it", part.span);
+    if (draft.state.status.empty()) reading.missing(draft.prefix + "status", "it says how far the action is", part.span);
+    states.push_back(std::move(draft.state));
   }
 }
 

@@ -17,18 +17,11 @@ struct Vehicle {
   std::optional<std::string> e_stop = {}, mode = {};
 };
 
-/// The state of one action.
-struct ActionWord {
-  std::string id, status;        ///< `running`, `paused`, `finished` or `failed`
-  std::string result;            ///< for the master; may be empty
-  source::Span id_at{};          ///< the place of the id, which is not looked up here
-};
-
 /// Reads the value of the field `vehicle`.
 void read_vehicle(Reading& reading, const Json& json, Vehicle& vehicle);
 /// Updates what was known by what a line says; all else stays.
 void put(const Vehicle& said, vda5050::Condition& condition);
 /// Reads the value of the field `actions`: a list of objects, each with an id and a status.
-void read_actions(Reading& reading, const Json& json, std::vector<ActionWord>& words);
+void read_actions(Reading& reading, const Json& json, std::vector<vda5050::HostActionState>& states);
 
 }  // namespace kb::wire
