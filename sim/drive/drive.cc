@@ -8,7 +8,6 @@
 namespace kb::sim {
 namespace {
 
-constexpr std::int64_t kStepUs = 10'000;
 constexpr std::uint64_t kStepsPerControl = kControlUs / kStepUs;
 constexpr double kRunsOn = 1.0;             // s, after the end of the last mission
 constexpr double kPatience = 60.0;          // s: a robot that has stood this long, with no event still to come, stands for good

@@ -8,7 +8,6 @@
 namespace kb::sim {
 namespace {
 
-constexpr int kPressTicks = 2;          // a finger holds a button longer than one tick
 constexpr double kPlaceReach = 0.08;    // m, times the floor's size: a robot this near is at the place of a trigger
 
 /// The kinds of things that are as the last event has made them, while several events hold them. (For roads, crossings and markings the floor

@@ -13,6 +13,9 @@
 
 namespace kb::sim {
 
+inline constexpr std::int64_t kStepUs = 10'000;   ///< of the simulator's physics
+inline constexpr int kPressTicks = 2;             ///< how long a press in a scenario lasts: a finger holds a button longer than one tick
+
 class Helm {
  public:
   virtual ~Helm() = default;

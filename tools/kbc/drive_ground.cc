@@ -8,6 +8,7 @@
 
 #include "compiler/model/standard_names.h"
 #include "sim/batch/batch.h"
+#include "sim/drive/helm.h"
 #include "sim/mind/control_words.h"
 #include "tools/kbc/checks.h"
 
@@ -81,7 +82,7 @@ std::unique_ptr<DriveGround> prepare_ground(const GroundOptions& options, std::u
   if (!compiled.ok()) return nullptr;
   auto messages = session.diagnostics(compiled.sources);
   if (!options.dt.empty()) ground->dt_us = *trace::parse_duration(options.dt);
-  if (ground->dt_us % 10'000 != 0 || ground->dt_us > 1'000'000) {
+  if (ground->dt_us % sim::kStepUs != 0 || ground->dt_us > 1'000'000) {
     messages.report(Kind::kSimTick, {}, {fmt::format("{:g}", ground->dt_us / 1000.0)});
     return nullptr;
   }

@@ -14,17 +14,10 @@ namespace kb::wire {
 
 using diagnostics::Kind;
 
-namespace {
-
-constexpr std::int64_t kStepUs = 10'000;   // of the simulator's physics
-constexpr int kPressTicks = 2;             // how long a press in a scenario lasts
-
-}  // namespace
-
 RemoteHelm::RemoteHelm(std::unique_ptr<DriverProcess> process, const sim::Knowledge& knowledge, RemoteOptions options)
     : process_(std::move(process)), knowledge_(knowledge), options_(std::move(options)) {}
 
-void RemoteHelm::press(program::CellId fact, bool held) { pressed_.push_back({fact, held ? 0 : kPressTicks}); }
+void RemoteHelm::press(program::CellId fact, bool held) { pressed_.push_back({fact, held ? 0 : sim::kPressTicks}); }
 
 void RemoteHelm::release(program::CellId fact) {
   std::erase_if(pressed_, [&](const Button& button) { return button.fact == fact; });
@@ -73,7 +66,7 @@ mts::Motion RemoteHelm::step(std::int64_t now_us, const mts::Senses& senses, con
   std::vector<std::string> buttons;
   for (const Button& button : pressed_) buttons.emplace_back(knowledge_.program->cells[program::index(button.fact)].name);
   if (!exchange(print_line(now_us, senses, tag, buttons))) return {};
-  const bool first_of_tick = (now_us - kStepUs) % options_.dt_us == 0;
+  const bool first_of_tick = (now_us - sim::kStepUs) % options_.dt_us == 0;
   if (first_of_tick) {
     std::erase_if(pressed_, [](Button& button) { return button.ticks > 0 && --button.ticks == 0; });
   }
