@@ -19,6 +19,7 @@
 #include "compiler/source/numbers.h"
 #include "sim/scenario/setting.h"
 #include "tools/kbc/named_files.h"
+#include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/trace/table.h"
 
@@ -35,6 +36,13 @@ inline void refuse_shared_standard_output(CLI::App& app, std::vector<CLI::Option
       first = output;
     }
   });
+}
+
+/// `engine` becomes one of trace::kEngineWords.
+inline void add_engine_option(CLI::App& app, std::string& engine) {
+  app.add_option("--engine", engine, "What decides: tables (as on the robot), interpreter, or both, compared")
+      ->check(CLI::IsMember(std::vector<std::string>(trace::kEngineWords.begin(), trace::kEngineWords.end())))
+      ->capture_default_str();
 }
 
 /// A check made from a function that returns what is wrong with a text, or nothing. Only `type_name` describes what the option takes.

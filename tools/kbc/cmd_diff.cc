@@ -125,7 +125,7 @@ int diff(const DiffOptions& options, Session& session) {
   const RecordedInput input = open_recorded(options.recorded, inputs, sources, diagnostics);
   if (!input.reader) return kErrors;
   const auto old_engine = make_engine(trace::EngineKind::kTables, *before), new_engine = make_engine(trace::EngineKind::kTables, *after);
-  trace::Differ differ({before->program, *old_engine}, {after->program, *new_engine}, inputs);
+  trace::DecisionDiffer differ({before->program, *old_engine}, {after->program, *new_engine}, inputs);
   if (options.json) session.print(trace::print_json(differ.only_before(), differ.only_after()) + "\n");
   else session.print(trace::print(differ.only_before(), differ.only_after(), options.most));
   show_drivers(*before, *after, options, session);

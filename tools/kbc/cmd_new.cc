@@ -1,5 +1,6 @@
 // kbc new: a project that builds. Its files are those in tools/kbc/template.
 #include <CLI/CLI.hpp>
+#include <boost/algorithm/string/replace.hpp>
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -24,14 +25,7 @@ using diagnostics::Kind;
 
 constexpr std::string_view kPlaceholder = "@NAME@";
 
-std::string fill_in(std::string_view text, const std::string& name) {
-  std::string out;
-  for (auto at = text.find(kPlaceholder); at != std::string_view::npos; at = text.find(kPlaceholder)) {
-    out += std::string(text.substr(0, at)) + name;
-    text.remove_prefix(at + kPlaceholder.size());
-  }
-  return out + std::string(text);
-}
+std::string fill_in(std::string_view text, const std::string& name) { return boost::replace_all_copy(std::string(text), kPlaceholder, name); }
 
 // Names that main.cc uses, names of the template's files (some systems do not distinguish MAP.kb from map.kb), and of what `cmake --build` makes.
 bool is_taken(std::string name) {

@@ -191,9 +191,7 @@ Run setup_run(CLI::App& app) {
       ->needs(table)
       ->check(is_tick_range());
   app.add_flag("--all", options->shown.all, "With --table: all cells and all ticks, changed or not")->needs(table);
-  app.add_option("--engine", options->engine, "What decides: tables (as on the robot), interpreter, or both, compared")
-      ->check(CLI::IsMember({"tables", "interpreter", "both"}))
-      ->capture_default_str();
+  add_engine_option(app, options->engine);
   refuse_shared_standard_output(app, {trace, table});
   return [options](Session& session) { return run(*options, session); };
 }

@@ -132,9 +132,7 @@ Run setup_test(CLI::App& app) {
       app.add_flag("--coverage{text}", options->coverage, "What the cases exercise of the rules, as text; --coverage=json and --coverage=html in other forms")
           ->check(CLI::IsMember(std::vector<std::string>(kReportForms.begin(), kReportForms.end())));
   app.add_option("--coverage-out", options->coverage_out, "Write the coverage to this file")->type_name("FILE")->needs(coverage);
-  app.add_option("--engine", options->engine, "What decides: tables (as on the robot), interpreter, or both, compared")
-      ->check(CLI::IsMember({"tables", "interpreter", "both"}))
-      ->capture_default_str();
+  add_engine_option(app, options->engine);
   app.parse_complete_callback([options] {
     const auto is_form = [](const std::string& root) { return std::find(kReportForms.begin(), kReportForms.end(), root) != kReportForms.end(); };
     const auto form = std::find_if(options->roots.begin(), options->roots.end(), is_form);

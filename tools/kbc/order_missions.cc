@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <set>
 
 #include "compiler/diagnostics/consumers.h"
 #include "compiler/model/known_names.h"
+#include "compiler/source/numbers.h"
 
 namespace kb::cli {
 
@@ -103,8 +103,8 @@ std::optional<std::size_t> OrderMissions::visit_of(std::string_view leg, vda5050
   const std::size_t begin = route_.size() + 1;
   std::size_t visit = 0;
   if (leg.size() <= begin || !leg.starts_with(route_) || leg[begin - 1] != '.') return std::nullopt;
-  const auto read = std::from_chars(leg.data() + begin, leg.data() + leg.size(), visit);
-  if (read.ec != std::errc() || read.ptr == leg.data() + leg.size() || *read.ptr != ':') return std::nullopt;
+  const std::size_t colon = leg.find(':', begin);
+  if (colon == std::string_view::npos || !source::read_number(leg.substr(begin, colon - begin), visit)) return std::nullopt;
   return visit + first_visit(start);
 }
 

@@ -132,8 +132,6 @@ class Session {
   /// Prints what is left to print (the summary, the SARIF document) and returns the final exit code.
   [[nodiscard]] int finish(int code);
 
-  [[nodiscard]] bool color() const { return color_; }
-
  private:
   class Outlet;
   void tell(std::string_view text);

@@ -61,14 +61,7 @@ Coverage::Coverage(const Program& program)
       facts_(program.facts),
       raised_(program.cells.size(), 0),
       strategies_(program.cells.size()),
-      high_(program.cells.size(), false) {
-  std::uint32_t rule = 0;
-  for (std::uint32_t level = 0; level < program.levels.size(); ++level) {
-    level_begins_.push_back(rule);
-    while (rule < program.rules.size() && program.rules[rule].level == level) ++rule;
-  }
-  level_begins_.push_back(rule);
-}
+      high_(program.cells.size(), false) {}
 
 void Coverage::begin_run() {
   ++runs_;
@@ -86,7 +79,8 @@ void Coverage::before(const Interpreter& interpreter) {
 }
 
 void Coverage::level_evaluated(const Interpreter& interpreter, std::uint32_t level) {
-  for (std::uint32_t rule = level_begins_[level]; rule < level_begins_[level + 1]; ++rule)
+  const auto [begin, end] = program::rules_of(program_, level);
+  for (std::uint32_t rule = begin; rule < end; ++rule)
     if (interpreter.holds(program_.rules[rule].condition)) ++rules_[rule].held;
 }
 

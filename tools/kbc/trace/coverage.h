@@ -50,7 +50,6 @@ class Coverage final : public program::Interpreter::Observer {
 
  private:
   const program::Program& program_;
-  std::vector<std::uint32_t> level_begins_;  // the first rule of each level, and the end
   std::vector<Rule> rules_;
   std::vector<Fact> facts_;
   std::vector<std::uint64_t> raised_;  // by cell

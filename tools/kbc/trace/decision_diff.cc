@@ -68,7 +68,7 @@ std::string strategy_of(const Program& program, const program::Tick& tick) {
 
 }  // namespace
 
-Differ::Differ(Side before, Side after, const Program& inputs)
+DecisionDiffer::DecisionDiffer(Side before, Side after, const Program& inputs)
     : before_{before.program, before.engine, Share(before.program, inputs), Senses(before.program, EngineKind::kTables)},
       after_{after.program, after.engine, Share(after.program, inputs), Senses(after.program, EngineKind::kTables)},
       only_before_(only_in(before.program, after.program)),
@@ -82,12 +82,12 @@ Differ::Differ(Side before, Side after, const Program& inputs)
   }
 }
 
-program::Tick Differ::Mind::tick(const FactsRow& row) {
+program::Tick DecisionDiffer::Mind::tick(const FactsRow& row) {
   const auto facts = senses.look(share.of(row), [this](CellId cell) { return engine.value(cell); });
   return engine.tick(facts, row.dt_us);
 }
 
-TickDifference Differ::tick(const FactsRow& row) {
+TickDifference DecisionDiffer::tick(const FactsRow& row) {
   const program::Tick a = before_.tick(row), b = after_.tick(row);
   TickDifference out{.tick = a.number,
                      .time_us = a.time_us,

@@ -35,14 +35,14 @@ struct TickDifference {
 };
 
 /// Runs both, tick by tick. Programs and engines must outlive it. Memory: that of the two programs' names.
-class Differ {
+class DecisionDiffer {
  public:
   struct Side {
     const program::Program& program;
     Engine& engine;
   };
   /// `inputs` is their `union_of_inputs`.
-  Differ(Side before, Side after, const program::Program& inputs);
+  DecisionDiffer(Side before, Side after, const program::Program& inputs);
 
   [[nodiscard]] const OnlyIn& only_before() const { return only_before_; }
   [[nodiscard]] const OnlyIn& only_after() const { return only_after_; }

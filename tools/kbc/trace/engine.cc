@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "compiler/program/interpret.h"
-#include "tools/kbc/trace/differ.h"
+#include "tools/kbc/trace/trace_diff.h"
 
 namespace kb::trace {
 namespace {
@@ -63,10 +63,9 @@ const std::string& Engine::disagreement() const {
 }
 
 std::optional<EngineKind> find_engine(std::string_view word) {
-  if (word == "tables") return EngineKind::kTables;
-  if (word == "interpreter") return EngineKind::kInterpreter;
-  if (word == "both") return EngineKind::kBoth;
-  return std::nullopt;
+  const auto found = std::find(kEngineWords.begin(), kEngineWords.end(), word);
+  if (found == kEngineWords.end()) return std::nullopt;
+  return static_cast<EngineKind>(found - kEngineWords.begin());
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // The two engines behind one interface, and both at once.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,7 +16,9 @@
 namespace kb::trace {
 
 enum class EngineKind : std::uint8_t { kTables, kInterpreter, kBoth };
-/// "tables", "interpreter", "both"; nothing for any other word.
+/// The words for them, in this order.
+inline constexpr std::array<std::string_view, 3> kEngineWords{"tables", "interpreter", "both"};
+/// Nothing for any other word.
 [[nodiscard]] std::optional<EngineKind> find_engine(std::string_view word);
 
 /// Runs a program, tick by tick (with the contract of program::Interpreter).

@@ -68,12 +68,12 @@ std::vector<MapChange> map_changes(const Model& before, const Model& after) {
   return changes;
 }
 
-MapWatch::MapWatch(std::vector<MapChange>& changes, Differ::Side before, Differ::Side after) {
+MapWatch::MapWatch(std::vector<MapChange>& changes, DecisionDiffer::Side before, DecisionDiffer::Side after) {
   std::multimap<std::string_view, MapChange*> places;
   for (MapChange& change : changes) {
     for (const std::string& landmark : change.landmarks) places.emplace(landmark, &change);
   }
-  for (const Differ::Side& side : {before, after}) {
+  for (const DecisionDiffer::Side& side : {before, after}) {
     for (std::uint32_t i = 0; i < side.program.facts; ++i) {
       const program::Cell& fact = side.program.cells[i];
       const auto [first, last] = places.equal_range(fact.name);

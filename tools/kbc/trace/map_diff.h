@@ -22,7 +22,7 @@ struct MapChange {
 /// Notes which of the changes a drive reaches, as either side sees it. All must outlive it.
 class MapWatch {
  public:
-  MapWatch(std::vector<MapChange>& changes, Differ::Side before, Differ::Side after);
+  MapWatch(std::vector<MapChange>& changes, DecisionDiffer::Side before, DecisionDiffer::Side after);
   /// After each tick. Cost: two comparisons for each landmark of a change that is not reached yet.
   void look();
 

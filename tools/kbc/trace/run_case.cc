@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "tools/kbc/trace/differ.h"
+#include "tools/kbc/trace/trace_diff.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_csv.h"
 #include "tools/kbc/trace/output_file.h"

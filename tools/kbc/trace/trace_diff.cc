@@ -1,4 +1,4 @@
-#include "tools/kbc/trace/differ.h"
+#include "tools/kbc/trace/trace_diff.h"
 
 #include <fmt/format.h>
 
