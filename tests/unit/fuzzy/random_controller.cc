@@ -4,26 +4,18 @@
 #include <limits>
 #include <string>
 
+#include "tests/unit/dice.h"
+
 namespace kb::fuzzy::testing {
 namespace {
 
-// SplitMix64: small, and the same everywhere.
-class Dice {
+class Dice : public tests::Dice {
  public:
-  explicit Dice(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 1) {}
-  std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-  }
-  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(next() % n); }
+  explicit Dice(std::uint64_t seed) : tests::Dice(seed * 0x9E3779B97F4A7C15u + 1) {}
+  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(tests::Dice::below(n)); }
   bool one_in(std::uint32_t n) { return below(n) == 0; }
   /// Of a grid of 1/64, so that corners meet now and then and all numbers are floats.
   double between(double low, double high) { return low + (high - low) * (below(65) / 64.0); }
-
- private:
-  std::uint64_t state_;
 };
 
 class Maker {
@@ -55,7 +47,7 @@ class Maker {
     const std::uint32_t outputs = 1 + dice_.below(2), nests = 3 + dice_.below(8);
     for (std::uint32_t o = 0; o < outputs; ++o) add_output(o);
     if (dice_.one_in(2)) add_rule(kNone, dice_, false);
-    const std::uint64_t form = dice_.next();
+    const std::uint64_t form = dice_.bits();
     for (std::uint32_t n = 0; n < nests; ++n) add_nest_of_row(n, Dice(form));
     return std::move(c_);
   }
@@ -280,7 +272,7 @@ std::vector<double> random_inputs(const Controller& controller, std::uint64_t se
   for (const Input& input : controller.inputs) {
     for (std::uint32_t e = 0; e < input.count; ++e) {
       const double width = input.high - input.low;
-      double value = input.low + width * (static_cast<double>(dice.next() >> 40) / static_cast<double>(1u << 24));
+      double value = input.low + width * (static_cast<double>(dice.bits() >> 40) / static_cast<double>(1u << 24));
       if (dice.one_in(4)) value = input.terms[dice.below(static_cast<std::uint32_t>(input.terms.size()))].shape.p[dice.below(2)];
       if (!wild) value = std::clamp(value, input.low, input.high);
       if (wild && dice.one_in(6)) value = input.low + width * dice.between(-2.0, 3.0);

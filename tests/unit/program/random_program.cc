@@ -5,33 +5,21 @@
 #include <limits>
 #include <string>
 
+#include "tests/unit/dice.h"
 #include "tests/unit/program/program_builder.h"
 
 namespace kb::program::testing {
 namespace {
 
-/// SplitMix64: the same numbers everywhere, unlike the standard distributions.
-class Random {
+class Random : public tests::Dice {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-
-  std::uint64_t bits() {
-    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15ull);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return z ^ (z >> 31);
-  }
-  /// 0 .. count - 1.
-  std::size_t below(std::size_t count) { return static_cast<std::size_t>(bits() % count); }
+  using Dice::Dice;
   std::size_t between(std::size_t least, std::size_t most) { return least + below(most - least + 1); }
   bool chance(unsigned percent) { return below(100) < percent; }
   template <class T>
   const T& pick(const std::vector<T>& items) {
     return items[below(items.size())];
   }
-
- private:
-  std::uint64_t state_;
 };
 
 const std::vector<std::uint32_t> kTimes = {0, 1'000, 50'000, 100'000, 150'000, 200'000, 300'000, 1'000'000};
