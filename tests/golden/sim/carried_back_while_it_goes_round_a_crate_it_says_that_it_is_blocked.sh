@@ -1,0 +1,2 @@
+# RUN: printf '[[event]]\nwhen = { time = 1 }\npress = "Start1"\n[[event]]\nwhen = { time = 0 }\nobstacle = "crate"\nroad = "LM3.E"\nmetres = 0.9\nradius = 0.08\n[[event]]\nwhen = { strategy = "Avoid", delay = 5 }\nkidnap = { road = "LM3.E", metres = 0.6 }\n' > %t/s.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/s.toml
+# By its odometry it has passed the crate, by its range finders not: it goes round and drives on in turn, each time for a moment.

@@ -1,0 +1,3 @@
+# RUN: cp ../../../examples/04_simulator/labyrinth.kb %t; sed 's/std.retreat/std.recover/; s/^detour .*/detours on Route1 when Closed[exit]/' ../../../examples/04_simulator/route1.kb > %t/r.kb; for road in LM8.E LM9.S; do printf '[[event]]\nwhen = { time = 1 }\npress = "Start1"\n[[event]]\nwhen = { crossing = "LM3", delay = 0.5 }\nkidnap = { road = "'$road'", metres = 0.6 }\n' > %t/s.toml; kbc sim %t/r.kb --scenario %t/s.toml; done
+# Set down facing elsewhere, it notices by its compass, drops the manoeuvre and finds its way. Set down as it faced, it cannot notice that: it
+# goes on crossing where nothing is to be crossed, until that has taken too long.
