@@ -73,9 +73,15 @@ struct Arena::World final : public b2ContactListener {
     const Spot theirs = wall ? Spot{} : moves[place];
     const Spot closing = Spot{static_cast<double>(own.x), static_cast<double>(own.y)} - theirs;
     const double speed_m_s = std::max(dot(closing, {static_cast<double>(outwards.x), static_cast<double>(outwards.y)}), 0.0);
-    hits.push_back({wall ? std::string("a wall") : obstacles[place].name, spot(robot->GetPosition()), speed_m_s});
+    meet(wall ? std::string("a wall") : obstacles[place].name, speed_m_s);
   }
   void EndContact(b2Contact*) override { --touches; }
+  /// Where two walls meet, the robot touches both in one step: that is one hit.
+  void meet(std::string what, double speed_m_s) {
+    const auto same = std::find_if(hits.begin(), hits.end(), [&](const Hit& hit) { return hit.what == what; });
+    if (same == hits.end()) hits.push_back({std::move(what), spot(robot->GetPosition()), speed_m_s});
+    else same->speed_m_s = std::max(same->speed_m_s, speed_m_s);
+  }
 };
 
 Arena::Arena(const Labyrinth& labyrinth, Pose start, double radius_m)

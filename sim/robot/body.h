@@ -43,7 +43,7 @@ class Arena {
   /// The distance from `from` to the nearest surface in a direction, at most `most_m`. The robot itself is ignored.
   [[nodiscard]] float ray(Spot from, Spot ahead, double most_m) const;
   [[nodiscard]] bool touching() const;
-  /// The hits since the last call; a touch that lasts is one.
+  /// The hits since the last call, one for each thing; a touch that lasts is one.
   [[nodiscard]] std::vector<Hit> take_hits();
 
   void place_obstacle(const Obstacle& obstacle);   ///< an obstacle of the same name is moved

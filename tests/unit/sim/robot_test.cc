@@ -133,6 +133,15 @@ TEST(Arena, AWallHoldsTheRobotUpAndIsOneHit) {
   EXPECT_NEAR(distance(middle.at, {pose.x_m, pose.y_m}), 0.3 - kRobotRadius, 0.01);
 }
 
+TEST(Arena, AnEdgeWhereTwoWallsMeetIsOneHit) {
+  Labyrinth l;
+  l.walls = {{{1.0, 0.0}, {2.0, 1.0}}, {{1.0, 0.0}, {2.0, -1.0}}};
+  Arena arena(l, {});
+  for (int i = 0; i < 500 && !arena.touching(); ++i) arena.push(0.3, 0.0, 0.01);
+  ASSERT_TRUE(arena.touching());
+  EXPECT_EQ(arena.take_hits().size(), 1u);
+}
+
 TEST(Arena, ObstaclesAppearMoveAndVanish) {
   const Labyrinth& l = test_floor();
   const Pose start = l.place(*l.end("LM5.W"), 0.3);
