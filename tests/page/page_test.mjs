@@ -1,7 +1,7 @@
 // What the page explains: facts, satellites, rules, reasons; and pages of odd recordings.
 import {test} from 'node:test';
 import assert from 'node:assert/strict';
-import {browse, tick, truth, shot, agrees} from './browser.mjs';
+import {browse, tick, truth, shot, agrees, until} from './browser.mjs';
 
 const {withPage} = browse();
 const go = (page, at) => page.evaluate((to) => waymark.go(to), at);
@@ -68,6 +68,20 @@ test('the log has each rule when it fired; a click goes there and explains', () 
   assert.ok(await page.locator('#why-panel .fails').count() > 0, 'something did not hold one tick before');
   await page.keyboard.press('Escape');
   assert.equal(await page.getAttribute('#tab-log', 'aria-selected'), 'true');
+}));
+
+const currentInSight = (page) => page.evaluate(() => {
+  const box = document.getElementById('log'), top = waymark.log.find(waymark.frame) * kRowPx;
+  return box.scrollTop > 0 && box.scrollTop <= top && top < box.scrollTop + box.clientHeight;
+});
+
+test('the log shows the tick at which the page is opened, and the one that was chosen while it was hidden', () => withPage('drive.html#tick=500', async (page) => {
+  assert.ok(await currentInSight(page));
+  await page.click('#tab-why');
+  await page.keyboard.press('End');
+  await page.click('#tab-log');
+  await until(page, () => document.getElementById('log').scrollTop > 0);
+  assert.ok(await currentInSight(page));
 }));
 
 test('a click into the history goes to its tick and explains its cell', () => withPage('drive.html', async (page) => {

@@ -8,7 +8,7 @@ class LogView {
     this.box = byId('log'), this.rows = byId('log-rows');
     this.current = -1;
     this.box.addEventListener('scroll', () => this.draw());
-    new ResizeObserver(() => this.draw()).observe(this.box);
+    new ResizeObserver(() => this.show(this.app.frame)).observe(this.box);
   }
   /// The last firing that began by now.
   find(frame) {
@@ -21,10 +21,11 @@ class LogView {
     return low - 1;
   }
   show(frame) {
-    const current = this.find(frame);
-    if (current !== this.current) {
+    const current = this.find(frame), height = this.box.clientHeight;
+    this.rows.style.height = `${this.app.drive.log.length * kRowPx}px`;
+    if (current !== this.current && height > 0) {   // behind another tab it has no height, and cannot be scrolled
       this.current = current;
-      const height = this.box.clientHeight, top = current * kRowPx;
+      const top = current * kRowPx;
       if (top < this.box.scrollTop || top > this.box.scrollTop + height - 3 * kRowPx) this.box.scrollTop = Math.max(0, top - height / 2);
     }
     this.draw();
@@ -35,7 +36,6 @@ class LogView {
     const key = `${first} ${last} ${frame} ${log.length}`;
     if (this.key === key) return;
     this.key = key;
-    this.rows.style.height = `${log.length * kRowPx}px`;
     const focus = document.activeElement && document.activeElement.dataset.entry;
     const rows = [];
     for (let i = first; i < last; ++i) rows.push(this.row(log[i], i, frame));
