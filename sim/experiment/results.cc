@@ -32,7 +32,7 @@ bool read_all(int file, std::string& bytes) {
 
 }  // namespace
 
-std::string fingerprint(const Setup& setup, std::string_view version, const source::FileSystem& files) {
+std::string fingerprint(const Setup& setup, std::string_view program, const source::FileSystem& files) {
   source::Fingerprint rules, maze;
   source::Sources imported;
   diagnostics::CountingConsumer nobody;
@@ -50,7 +50,7 @@ std::string fingerprint(const Setup& setup, std::string_view version, const sour
     }
     set += fmt::format("{}", fmt::join(values, ","));
   }
-  return fmt::format("# kbc {}, seed {}, scenarios {}, labyrinths {}, maze {}, rules {:016x}{}", version, setup.seed, setup.scenarios, setup.labyrinths,
+  return fmt::format("# kbc {}, seed {}, scenarios {}, labyrinths {}, maze {}, rules {:016x}{}", program, setup.seed, setup.scenarios, setup.labyrinths,
                      setup.maze != nullptr ? fmt::format("{:016x}", maze.value()) : "none", rules.value(), set);
 }
 

@@ -15,9 +15,9 @@
 
 namespace kb::sim::experiment {
 
-/// Identifies results that belong together: by the setup (the seed and so on), the library's rules, and the `version` of kbc, as its
-/// simulator and controllers influence each result.
-[[nodiscard]] std::string fingerprint(const Setup& setup, std::string_view version, const source::FileSystem& files);
+/// Identifies results that belong together: by the setup (the seed and so on), the library's rules, and the `program`, as its
+/// simulator and controllers influence each result: it must differ between two builds of kbc that may differ in these.
+[[nodiscard]] std::string fingerprint(const Setup& setup, std::string_view program, const source::FileSystem& files);
 
 class Results {
  public:

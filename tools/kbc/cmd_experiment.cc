@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compiler/source/fingerprint.h"
 #include "planners/crew.h"
 #include "planners/maps/maps.h"
 #include "sim/batch/batch.h"
@@ -163,6 +164,14 @@ bool copy(const std::string& from, const std::string& to, Session& session) {
   return bytes && session.write_files({{to, std::move(*bytes)}});
 }
 
+/// Tells this program from another of the same version, whose simulator, controllers or judge may differ: by the bytes of its file.
+std::string program_print() {
+  std::string error;
+  source::Fingerprint print;
+  if (const auto bytes = trace::read_all("/proc/self/exe", SIZE_MAX, error)) print.mix(*bytes);
+  return fmt::format("{} {:016x}", KB_VERSION, print.value());
+}
+
 /// Opens the results that exist, drives the rest, and writes the results.
 int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const lab::Results::Minds& minds, Session& session) {
   std::error_code failed;
@@ -172,7 +181,7 @@ int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const l
   if (complete && !copy(whole, part, session)) return kErrors;
   lab::Results results;
   using Opened = lab::Results::Opened;
-  const auto opened = results.open(part, lab::fingerprint(setup, KB_VERSION, session.files()), setup, minds);
+  const auto opened = results.open(part, lab::fingerprint(setup, program_print(), session.files()), setup, minds);
   if (opened == Opened::kFailed) session.report(Kind::kCannotWrite, {part, results.error()});
   if (opened == Opened::kOther) session.report(Kind::kExperimentOther, {options.out});
   if (opened == Opened::kOtherMind) session.report(Kind::kExperimentOtherMind, {options.out, results.error()});
