@@ -211,6 +211,9 @@ void warn_of_short_road(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
                       fmt::format("{:g}", stepped(others))});
 }
 
+/// A size of a floor; one that no floor has without its hundreds of digits.
+std::string size_text(double size) { return size < 1e12 ? fmt::format("{:.0f}", size) : fmt::format("{:.3g}", size); }
+
 }  // namespace
 
 bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, Diagnostics& diagnostics) {
@@ -240,12 +243,12 @@ bool check_size(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
   const double wide_m = high.x_m - low.x_m, deep_m = high.y_m - low.y_m;
   const source::Span at = labyrinth.crossings.front().span;
   if (wide_m * deep_m > kLargestFloor) {
-    diagnostics.report(Kind::kSimFloorLarge, at, {fmt::format("{:.0f}", wide_m), fmt::format("{:.0f}", deep_m), fmt::format("{:.0f}", kLargestFloor)});
+    diagnostics.report(Kind::kSimFloorLarge, at, {size_text(wide_m), size_text(deep_m), size_text(kLargestFloor)});
     return false;
   }
   const double far_m = std::max({-low.x_m, -low.y_m, high.x_m, high.y_m});
   if (far_m <= kFarthestFloor) return true;
-  diagnostics.report(Kind::kSimFloorFar, at, {fmt::format("{:.0f}", far_m / 1000.0), fmt::format("{:.0f}", kFarthestFloor / 1000.0)});
+  diagnostics.report(Kind::kSimFloorFar, at, {size_text(far_m / 1000.0), size_text(kFarthestFloor / 1000.0)});
   return false;
 }
 
