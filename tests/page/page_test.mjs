@@ -70,18 +70,18 @@ test('the log has each rule when it fired; a click goes there and explains', () 
   assert.equal(await page.getAttribute('#tab-log', 'aria-selected'), 'true');
 }));
 
-const currentInSight = (page) => page.evaluate(() => {
-  const box = document.getElementById('log'), top = waymark.log.find(waymark.frame) * kRowPx;
-  return box.scrollTop > 0 && box.scrollTop <= top && top < box.scrollTop + box.clientHeight;
-});
+/// Whether the row of the last firing is in sight.
+const lastFiringInSight = () => {
+  const box = document.getElementById('log').getBoundingClientRect(), row = document.querySelector(`#log [data-entry="${waymark.log.find(waymark.frame)}"]`);
+  return row !== null && row.getBoundingClientRect().top >= box.top && row.getBoundingClientRect().top < box.bottom;
+};
 
 test('the log shows the tick at which the page is opened, and the one that was chosen while it was hidden', () => withPage('drive.html#tick=500', async (page) => {
-  assert.ok(await currentInSight(page));
+  await until(page, lastFiringInSight);
   await page.click('#tab-why');
   await page.keyboard.press('End');
   await page.click('#tab-log');
-  await until(page, () => document.getElementById('log').scrollTop > 0);
-  assert.ok(await currentInSight(page));
+  await until(page, lastFiringInSight);
 }));
 
 test('a click into the history goes to its tick and explains its cell', () => withPage('drive.html', async (page) => {
