@@ -67,12 +67,12 @@ class Diagnosis {
  public:
   // `mass`: kg of a robot that slides; 0 for one that stops where it is not driven.
   Diagnosis(const PotentialField& field, double cell_m, double tolerance_m, double mass)
-      : motion_(cell_m), well_(field, cell_m, tolerance_m), cell_m_(cell_m), mass_(mass) {}
+      : field_(field), motion_(cell_m), well_(field, cell_m, tolerance_m), cell_m_(cell_m), mass_(mass) {}
   bool add(Point at, double speed, double pull, double time_s) {
     const bool caught = motion_.add(at, speed, pull, time_s);
     if (well_.add(at, speed, mass_, time_s)) {
       trap_ = {Trap::Kind::kRest, at, time_s};
-    } else if (caught && (motion_.trap().kind != Trap::Kind::kRest || rests_long(at, pull, time_s))) {
+    } else if (caught && (runs_in_a_well() || stays_long(at, pull, time_s))) {
       trap_ = motion_.trap();
     }
     return trap_.kind != Trap::Kind::kNone;
@@ -80,22 +80,30 @@ class Diagnosis {
   [[nodiscard]] const Trap& trap() const { return trap_; }
 
  private:
-  // A robot slows down at a saddle as in a well, but creeps over the saddle, for longer where the pull is weak; only one that stays is
-  // caught.
-  bool rests_long(Point at, double pull, double time_s) {
-    if (rests_since_s_ < 0.0 || distance(at, rests_at_) > kStays_cells * cell_m_) {
-      rests_since_s_ = time_s;
-      rests_at_ = at;
+  // A robot that runs to and fro, or round, would follow the field from the middle of its places, if its steps were short enough.
+  [[nodiscard]] bool runs_in_a_well() const {
+    if (motion_.trap().kind == Trap::Kind::kRest) return false;
+    const Point middle = motion_.middle();
+    return field_.nearest(middle).distance_m > 0.0 && well_.is_closed(middle, field_.potential(middle));
+  }
+  // A robot slows down at a saddle as in a well, but creeps over the saddle, for longer where the pull is weak; and between two walls it
+  // runs to and fro while a weak pull leads it along them. Only one that stays is caught.
+  bool stays_long(Point at, double pull, double time_s) {
+    if (stays_since_s_ < 0.0 || distance(at, stays_at_) > kStays_cells * cell_m_) {
+      stays_since_s_ = time_s;
+      stays_at_ = at;
     }
-    return (time_s - rests_since_s_) * pull >= kPatience_s * cell_m_;
+    const bool rests = motion_.trap().kind == Trap::Kind::kRest;
+    return (time_s - stays_since_s_) * pull >= (rests ? kRestPatience_s : kRunPatience_s) * cell_m_;
   }
 
-  static constexpr double kStays_cells = 0.5, kPatience_s = 120.0;   // see note [a cell is the unit of a drive]
+  static constexpr double kStays_cells = 0.5, kRestPatience_s = 120.0, kRunPatience_s = 30.0;   // see note [a cell is the unit of a drive]
+  const PotentialField& field_;
   TrapDetector motion_;
   WellProbe well_;
   double cell_m_, mass_;
-  Point rests_at_;
-  double rests_since_s_ = -1.0;
+  Point stays_at_;
+  double stays_since_s_ = -1.0;
   Trap trap_;
 };
 

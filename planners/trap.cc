@@ -65,6 +65,10 @@ bool TrapDetector::gets_on() const {
   return distance(early, late) > kDrift_cells * cell_m_;
 }
 
+Point TrapDetector::middle() const {
+  return (1.0 / static_cast<double>(window_.size() - 1)) * (window_.back().sum - window_.front().sum);
+}
+
 bool TrapDetector::in_a_box(Point at, double time_s) {
   if (!remember(at)) return false;
   const double w = extremes_[0].front().second + extremes_[1].front().second;

@@ -21,6 +21,8 @@ class TrapDetector {
   /// here. A robot rests that is slow for that pull: far away under a parabolic attraction the whole approach is slow, and no rest.
   [[nodiscard]] bool add(Point at, double speed, double pull, double time_s);
   [[nodiscard]] const Trap& trap() const { return trap_; }
+  /// The mean of the places of the last `kWindow_cells` of path. Call it only after an `add` that found chatter or a cycle.
+  [[nodiscard]] Point middle() const;
   void reset() { *this = TrapDetector(cell_m_); }
 
  private:

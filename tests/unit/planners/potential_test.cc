@@ -215,14 +215,18 @@ TEST(Potential, drives_over_small_cells_as_over_cells_of_a_metre) {
 
 TEST(Trap, is_no_slow_corridor) {
   for (const int width : {1, 2, 3}) {
-    Grid grid(60, 7);
-    for (std::int32_t x = 8; x < 52; ++x) {
-      for (std::int32_t y = 0; y < 7; ++y) grid.set_blocked({x, y}, y < 3 || y >= 3 + width);
-    }
-    for (const std::string_view name : {"potential", "potential-dynamic"}) {
-      const Result result = plan(*find_method(name), testing::problem_between(grid, {2, 3}, {57, 3}));
-      EXPECT_EQ(result.outcome, Outcome::kReached) << name << " width " << width << ": " << kb::planners::name(result.outcome)
-                                                   << " " << kb::planners::name(result.trap.kind);
+    for (const std::int32_t cells : {50, 300, 1000}) {
+      Grid grid(cells + 10, 7);
+      for (std::int32_t x = 8; x < cells; ++x) {
+        for (std::int32_t y = 0; y < 7; ++y) grid.set_blocked({x, y}, y < 3 || y >= 3 + width);
+      }
+      for (const std::string_view name : {"potential", "potential-parabolic", "potential-combined", "potential-dynamic"}) {
+        for (const Cell to : {Cell{cells - 2, 3 + width / 2}, Cell{cells + 7, 3}}) {   // in the corridor, and behind it
+          const Result result = plan(*find_method(name), testing::problem_between(grid, {2, 3}, to));
+          EXPECT_EQ(result.outcome, Outcome::kReached) << name << " width " << width << " to " << to.x << ": " << kb::planners::name(result.outcome)
+                                                       << " " << kb::planners::name(result.trap.kind);
+        }
+      }
     }
   }
 }
