@@ -4,10 +4,11 @@
 
 namespace kb::planners {
 
-Result run_astar(const Problem& problem, const RunOptions&) {
+Result run_astar(const Problem& problem, const RunOptions& run) {
+  Watch watch(run);
   Astar search(*problem.grid);
-  const std::vector<Cell> path = search.search(problem.start_cell(), problem.goal_cell());
-  Result result = path.empty() ? ended(Outcome::kUnreachable) : reached(*problem.grid, path);
+  const std::vector<Cell> path = search.search(problem.start_cell(), problem.goal_cell(), &watch);
+  Result result = path.empty() ? ended_without_path(watch) : reached(*problem.grid, path);
   result.statistics.cells = search.expanded();
   return result;
 }

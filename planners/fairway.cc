@@ -11,18 +11,25 @@
 namespace kb::planners {
 namespace {
 
+bool is_over(const Watch* watch) { return watch != nullptr && watch->why() != Stop::kNone; }
+
+// In passes over all cells: a look every 4096 of them.
+bool looks_at(CellIndex at, Watch* watch) { return at % 4096 == 0 && watch != nullptr && watch->stopped_now(); }
+
 // The length of the shortest moves to the nearest blocked cell, at most `cap`, found in two passes over the cells (chamfer).
-std::vector<float> chamfer(const Grid& grid, float cap) {
+std::vector<float> chamfer(const Grid& grid, float cap, Watch* watch) {
   std::vector<float> d(grid.size());
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = grid.all_blocked()[i] != 0 ? 0.0f : cap;
   constexpr float kRoot = 1.41421356f;
   const auto first = grid.index({0, 0}), last = grid.index({grid.width() - 1, grid.height() - 1});
   const auto at = [&](CellIndex i, int k) { return d[grid.neighbour(i, static_cast<std::size_t>(k))]; };
   for (CellIndex i = first; i <= last; ++i) {
+    if (looks_at(i, watch)) return d;
     if (d[i] == 0.0f) continue;
     d[i] = std::min({d[i], at(i, 4) + 1.0f, at(i, 6) + 1.0f, at(i, 5) + kRoot, at(i, 7) + kRoot});
   }
   for (CellIndex i = last + 1; i-- > first;) {
+    if (looks_at(i, watch)) return d;
     if (d[i] == 0.0f) continue;
     d[i] = std::min({d[i], at(i, 0) + 1.0f, at(i, 2) + 1.0f, at(i, 1) + kRoot, at(i, 3) + kRoot});
   }
@@ -46,12 +53,13 @@ std::uint8_t steepest(const Grid& grid, const std::vector<float>& u, CellIndex a
 
 }  // namespace
 
-std::vector<float> cell_potential(const Grid& grid, Cell goal) {
+std::vector<float> cell_potential(const Grid& grid, Cell goal, Watch* watch) {
   constexpr PotentialParameters parameters;
   const auto zone = static_cast<float>(parameters.zone_cells);
   const float k_r = repelling_gain(static_cast<float>(parameters.balance_cells), zone);
-  std::vector<float> u = chamfer(grid, zone + 1.0f);
+  std::vector<float> u = chamfer(grid, zone + 1.0f, watch);
   for (std::int32_t y = 0; y < grid.height(); ++y) {
+    if (watch != nullptr && watch->stopped(static_cast<std::size_t>(grid.width()))) return u;
     for (std::int32_t x = 0; x < grid.width(); ++x) {
       float& value = u[grid.index({x, y})];
       if (value == 0.0f) continue;
@@ -67,7 +75,7 @@ std::vector<float> cell_potential(const Grid& grid, Cell goal) {
   return u;
 }
 
-Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potential) {
+Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potential, Watch* watch) {
   Basin basin;
   basin.pointer.assign(grid.size(), Basin::kNoPointer);
   basin.inside.assign(grid.size(), 0);
@@ -79,6 +87,7 @@ Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potentia
   basin.inside[end] = 1;
   std::vector<CellIndex> open = {end};
   while (!open.empty()) {
+    if (watch != nullptr && watch->stopped()) return basin;
     const CellIndex at = open.back();
     open.pop_back();
     ++basin.cells;
@@ -98,11 +107,14 @@ Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potentia
   return basin;
 }
 
-Fairway find_fairway(const Grid& grid, Cell start, Cell goal) {
-  const Basin basin = find_basin(grid, goal, cell_potential(grid, goal));
+Fairway find_fairway(const Grid& grid, Cell start, Cell goal, Watch* watch) {
   Fairway fairway;
+  const std::vector<float> potential = cell_potential(grid, goal, watch);
+  if (is_over(watch)) return fairway;
+  const Basin basin = find_basin(grid, goal, potential, watch);
   fairway.basin_cells = basin.cells;
-  fairway.cells = shortest_to_marked(grid, start, basin.inside);
+  if (is_over(watch)) return fairway;
+  fairway.cells = shortest_to_marked(grid, start, basin.inside, watch);
   if (fairway.cells.empty()) return fairway;
   fairway.approach = fairway.cells.size() - 1;
   for (CellIndex at = grid.index(fairway.cells.back()); at != grid.index(goal);) {
@@ -112,10 +124,11 @@ Fairway find_fairway(const Grid& grid, Cell start, Cell goal) {
   return fairway;
 }
 
-Result run_fairway(const Problem& problem, const RunOptions&) {
+Result run_fairway(const Problem& problem, const RunOptions& run) {
   const Grid& grid = *problem.grid;
-  const Fairway fairway = find_fairway(grid, problem.start_cell(), problem.goal_cell());
-  Result result = fairway.cells.empty() ? ended(Outcome::kUnreachable) : reached(grid, fairway.cells);
+  Watch watch(run);
+  const Fairway fairway = find_fairway(grid, problem.start_cell(), problem.goal_cell(), &watch);
+  Result result = fairway.cells.empty() ? ended_without_path(watch) : reached(grid, fairway.cells);
   result.statistics.steps = fairway.cells.empty() ? 0 : fairway.cells.size() - 1;
   result.statistics.cells = fairway.basin_cells;
   const double all = static_cast<double>(grid.free_cells());

@@ -14,8 +14,9 @@
 namespace kb::planners {
 
 /// The potential (1) of potential.h, conic, with default parameters, in cells. Distances to obstacles are counted in moves (chamfer), which
-/// is good enough for pointers at a tenth of the cost of exact distances. Entries by index; infinite for blocked cells.
-[[nodiscard]] std::vector<float> cell_potential(const Grid& grid, Cell goal);
+/// is good enough for pointers at a tenth of the cost of exact distances. Entries by index; infinite for blocked cells. A `watch` that
+/// says stop ends this and the computations below, and then what they return is no answer.
+[[nodiscard]] std::vector<float> cell_potential(const Grid& grid, Cell goal, Watch* watch = nullptr);
 
 struct Basin {
   std::vector<std::uint8_t> pointer;   ///< by index: direction of the steepest descent, or kNoPointer
@@ -23,7 +24,7 @@ struct Basin {
   std::size_t cells = 0;               ///< how many are inside
   static constexpr std::uint8_t kNoPointer = 255;
 };
-[[nodiscard]] Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potential);
+[[nodiscard]] Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potential, Watch* watch = nullptr);
 
 /// Approach and chain of pointers, as cells; the first `approach` moves are the approach. Empty if there is no path.
 struct Fairway {
@@ -31,6 +32,6 @@ struct Fairway {
   std::size_t approach = 0;
   std::size_t basin_cells = 0;
 };
-[[nodiscard]] Fairway find_fairway(const Grid& grid, Cell start, Cell goal);
+[[nodiscard]] Fairway find_fairway(const Grid& grid, Cell start, Cell goal, Watch* watch = nullptr);
 
 }  // namespace kb::planners

@@ -21,7 +21,7 @@ class FairwayBug {
     path_.push_back(place(centre_node(at)));
     while (at != problem_.goal_cell()) {
       chart(at);
-      if (way_.empty()) return finish(Outcome::kUnreachable);
+      if (way_.empty()) return finish(watch_.why() == Stop::kNone ? Outcome::kUnreachable : Outcome::kLimit);
       if (!sail(at)) return finish(Outcome::kLimit);
     }
     return finish(Outcome::kReached);
@@ -30,7 +30,7 @@ class FairwayBug {
  private:
   // Finds the fairway from here, and for each node (middle of a side, or corner) that it passes, the move by which it does.
   void chart(Cell from) {
-    way_ = find_fairway(map_, from, problem_.goal_cell()).cells;
+    way_ = find_fairway(map_, from, problem_.goal_cell(), &watch_).cells;
     passes_.clear();
     for (std::size_t i = 0; i + 1 < way_.size(); ++i) {
       passes_[{way_[i].x + way_[i + 1].x + 1, way_[i].y + way_[i + 1].y + 1}] = i;

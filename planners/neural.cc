@@ -49,16 +49,28 @@ double log_excitation(const Grid& grid, const std::vector<double>& l, CellIndex 
 }
 
 // The free cells that the goal can excite, without the goal, in the order of their updates.
-std::vector<CellIndex> update_order(const Grid& grid, Cell goal, UpdateOrder order) {
-  const std::vector<double> distance = distance_field(grid, {goal}).distance;
+// Not all of them, if the watch says stop.
+std::vector<CellIndex> update_order(const Grid& grid, Cell goal, UpdateOrder order, Watch& watch) {
+  const std::vector<double> distance = distance_field(grid, {goal}, std::nullopt, &watch).distance;
   std::vector<CellIndex> cells;
   for (CellIndex at = 0; at < grid.size(); ++at) {
     if (distance[at] != kUnreached && distance[at] > 0.0) cells.push_back(at);
   }
-  if (order == UpdateOrder::kByDistance) {
-    std::sort(cells.begin(), cells.end(), [&](CellIndex a, CellIndex b) {
+  if (order != UpdateOrder::kByDistance) return cells;
+  // In rings one cell wide, since a sort of all cells at once could not be stopped.
+  std::vector<std::vector<CellIndex>> rings;
+  for (const CellIndex at : cells) {
+    const auto ring = static_cast<std::size_t>(distance[at]);
+    if (ring >= rings.size()) rings.resize(ring + 1);
+    rings[ring].push_back(at);
+  }
+  cells.clear();
+  for (auto& ring : rings) {
+    if (watch.stopped(ring.size())) break;
+    std::sort(ring.begin(), ring.end(), [&](CellIndex a, CellIndex b) {
       return distance[a] != distance[b] ? distance[a] < distance[b] : a < b;
     });
+    cells.insert(cells.end(), ring.begin(), ring.end());
   }
   return cells;
 }
@@ -67,7 +79,7 @@ class Relaxation {
  public:
   Relaxation(const Grid& grid, Cell goal, const NeuralParameters& parameters, Watch& watch)
       : grid_(grid), parameters_(parameters), watch_(watch), goal_(grid.index(goal)),
-        cells_(update_order(grid, goal, parameters.form == NeuralForm::kLiteral ? UpdateOrder::kJacobi : parameters.order)) {
+        cells_(update_order(grid, goal, parameters.form == NeuralForm::kLiteral ? UpdateOrder::kJacobi : parameters.order, watch)) {
     const double w0 = 4.0 + 4.0 * kDiagonal + parameters.self_weight;
     gain_ = parameters.gamma / w0;
     log_gain_ = std::log(gain_) - std::log(1.0 - gain_ * parameters.self_weight);
@@ -189,8 +201,10 @@ NeuralMap relax(const Grid& grid, Cell goal, const NeuralParameters& parameters,
     NeuralMap map;
     map.form = NeuralForm::kMax;
     map.sweeps = 1;
-    map.updates = level_field(grid, goal, map.level, one ? std::optional(starts[0]) : std::nullopt);
-    map.converged = true;
+    map.updates = level_field(grid, goal, map.level, one ? std::optional(starts[0]) : std::nullopt, &watch);
+    map.stop = watch.why();
+    map.converged = map.stop == Stop::kNone;
+    if (!map.converged) map.level.assign(grid.size(), map.inactive());   // a distance that is not settled may be too large
     return map;
   }
   Relaxation relaxation(grid, goal, parameters, watch);

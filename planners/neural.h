@@ -88,8 +88,8 @@ struct NeuralMap {
 class NeuralQuery {
  public:
   explicit NeuralQuery(const Grid& grid);
-  /// The cells from start to goal; empty if there is no path.
-  [[nodiscard]] std::vector<Cell> path(Cell start, Cell goal);
+  /// The cells from start to goal; empty if there is no path, or the watch said stop.
+  [[nodiscard]] std::vector<Cell> path(Cell start, Cell goal, Watch* watch = nullptr);
   [[nodiscard]] std::uint64_t updates() const { return wave_.expanded(); }
 
  private:

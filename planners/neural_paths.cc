@@ -115,8 +115,8 @@ NeuralQuery::NeuralQuery(const Grid& grid) : grid_(&grid), wave_(grid) {
   map_.level.assign(grid.size(), map_.inactive());
 }
 
-std::vector<Cell> NeuralQuery::path(Cell start, Cell goal) {
-  const bool found = !wave_.search(goal, start).empty();
+std::vector<Cell> NeuralQuery::path(Cell start, Cell goal, Watch* watch) {
+  const bool found = !wave_.search(goal, start, watch).empty();
   if (!found) return {};
   for (const CellIndex at : wave_.touched()) map_.level[at] = -wave_.distance(at);
   std::vector<Cell> path = ascend(*grid_, map_, start);
@@ -157,15 +157,15 @@ Result plan_neural(const Problem& problem, const NeuralParameters& parameters, c
   if (!in_range(parameters)) return rejected(Fault::kBadParameter);
   const Grid& grid = *problem.grid;
   const Cell start = problem.start_cell(), goal = problem.goal_cell();
+  Watch watch(run);
   if (parameters.form == NeuralForm::kMax && parameters.stop == StopWhen::kStartActive) {
     NeuralQuery query(grid);
-    const std::vector<Cell> path = query.path(start, goal);
-    Result result = path.empty() ? ended(Outcome::kUnreachable) : reached(grid, path);
+    const std::vector<Cell> path = query.path(start, goal, &watch);
+    Result result = path.empty() ? ended_without_path(watch) : reached(grid, path);
     result.statistics.steps = 1;
     result.statistics.cells = query.updates();
     return result;
   }
-  Watch watch(run);
   const std::array<Cell, 1> starts = {start};
   NeuralMap map = relax(grid, goal, parameters, watch, starts);
   if (parameters.form != NeuralForm::kLiteral) return answer(problem, map);

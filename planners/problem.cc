@@ -90,6 +90,12 @@ Result ended(Outcome outcome) {
   return result;
 }
 
+Result ended_without_path(const Watch& watch) {
+  Result result = ended(watch.why() == Stop::kNone ? Outcome::kUnreachable : Outcome::kLimit);
+  result.statistics.stop = watch.why();
+  return result;
+}
+
 Result rejected(Fault fault) {
   Result result;
   result.fault = fault;

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string_view>
@@ -115,9 +116,12 @@ struct RunOptions {
 class Watch {
  public:
   explicit Watch(const RunOptions& run);
-  /// Cheap: looks at flag and clock on every 256th call only. Once true, it stays true.
-  [[nodiscard]] bool stopped() {
-    if (stop_ == Stop::kNone && (++calls_ & 255u) == 0) look();
+  /// Cheap: looks at flag and clock once in 256 turns of a loop only. `turns`: made since the last call. Once true, it stays true.
+  [[nodiscard]] bool stopped(std::size_t turns = 1) {
+    if (stop_ == Stop::kNone && (turns_ += turns) >= 256) {
+      turns_ = 0;
+      look();
+    }
     return stop_ != Stop::kNone;
   }
   /// The same, but looks on every call. For loops with long turns.
@@ -136,7 +140,7 @@ class Watch {
   void look();
   const RunOptions* run_;
   std::chrono::steady_clock::time_point end_;
-  std::uint32_t calls_ = 0;
+  std::size_t turns_ = 0;
   Stop stop_ = Stop::kNone;
 };
 
@@ -149,6 +153,8 @@ class Watch {
 /// long paths have the same length to the last bit.
 [[nodiscard]] Result reached(const Grid& grid, const std::vector<Cell>& cells);
 [[nodiscard]] Result ended(Outcome outcome);
+/// Of a search that found no path: kLimit if the watch stopped it, else kUnreachable.
+[[nodiscard]] Result ended_without_path(const Watch& watch);
 [[nodiscard]] Result rejected(Fault fault);
 
 }  // namespace kb::planners

@@ -40,11 +40,13 @@ class Buckets {
   std::array<Bucket, 3> three_ = {Bucket(&memory_), Bucket(&memory_), Bucket(&memory_)};
 };
 
-// Settles cells outwards from the sources, bucket by bucket, over a field that is unreached everywhere, until `done` returns
-// true; that is asked after each bucket, with the distance below which all cells are settled. `settled` is told each cell.
+bool is_stopped(Watch* watch, std::size_t turns) { return watch != nullptr && watch->stopped(turns); }
+
+// Settles cells outwards from the sources, bucket by bucket, over a field that is unreached everywhere, until `watch` says stop or
+// `done` returns true; that is asked after each bucket, with the distance below which all cells are settled. `settled` is told each cell.
 template <class Kept, class Settled, class Done>
 std::uint64_t grow(const Grid& grid, std::vector<double>& field, const std::vector<Cell>& sources, const Settled& settled,
-                   const Done& done) {
+                   const Done& done, Watch* watch) {
   Buckets<CellIndex> buckets;
   double* const level = field.data();
   const std::uint8_t* const moves = grid.all_moves().data();
@@ -73,8 +75,9 @@ std::uint64_t grow(const Grid& grid, std::vector<double>& field, const std::vect
         if (before >= (soon ? high + 1.0 : high + 2.0)) buckets[soon ? b + 1 : b + 2].push_back(to);
       }
     }
+    const std::size_t entries = bucket.size();
     bucket.clear();
-    if (done(high)) break;
+    if (done(high) || is_stopped(watch, entries)) break;
   }
   return count;
 }
@@ -87,15 +90,15 @@ auto has_come_to(const Grid& grid, std::optional<Cell> cell, const std::vector<d
 
 }  // namespace
 
-DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources, std::optional<Cell> stop_at) {
+DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources, std::optional<Cell> stop_at, Watch* watch) {
   DistanceField field{std::vector<double>(grid.size(), kUnreached), 0};
-  field.settled = grow<AsDistance>(grid, field.distance, sources, [](CellIndex) {}, has_come_to(grid, stop_at, field.distance));
+  field.settled = grow<AsDistance>(grid, field.distance, sources, [](CellIndex) {}, has_come_to(grid, stop_at, field.distance), watch);
   return field;
 }
 
-std::uint64_t level_field(const Grid& grid, Cell source, std::vector<double>& level, std::optional<Cell> stop_at) {
+std::uint64_t level_field(const Grid& grid, Cell source, std::vector<double>& level, std::optional<Cell> stop_at, Watch* watch) {
   level.assign(grid.size(), -kUnreached);
-  return grow<AsLevel>(grid, level, {source}, [](CellIndex) {}, has_come_to(grid, stop_at, level));
+  return grow<AsLevel>(grid, level, {source}, [](CellIndex) {}, has_come_to(grid, stop_at, level), watch);
 }
 
 // As `grow`, but over a field that has distances already. A cell may be in several buckets, so an entry counts only while its
@@ -133,7 +136,7 @@ std::uint64_t spread(const Grid& grid, std::vector<double>& levels, std::vector<
   return count;
 }
 
-std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks) {
+std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks, Watch* watch) {
   std::vector<double> distance(grid.size(), kUnreached);
   CellIndex best = 0;
   double least = kUnreached;
@@ -143,7 +146,7 @@ std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vec
                      least = distance[at];
                      best = at;
                    },
-                   [&](double) { return least != kUnreached; });
+                   [&](double) { return least != kUnreached; }, watch);
   if (least == kUnreached) return {};
   std::vector<Cell> path = descend(grid, distance, grid.cell(best));
   std::reverse(path.begin(), path.end());
@@ -199,7 +202,7 @@ void Astar::expand(const Entry& entry, Cell to) {
   }
 }
 
-std::vector<Cell> Astar::search(Cell from, Cell to) {
+std::vector<Cell> Astar::search(Cell from, Cell to, Watch* watch) {
   if (++search_ == 0) {   // the counter has overflowed
     for (Node& node : nodes_) node.search = 0;
     search_ = 1;
@@ -216,6 +219,7 @@ std::vector<Cell> Astar::search(Cell from, Cell to) {
   for (; current_ < buckets_.size(); ++current_) {
     // Within a bucket the order is arbitrary, so a cell may be improved after it was expanded; it is then expanded again.
     while (!buckets_[current_].empty()) {
+      if (is_stopped(watch, 1)) return {};
       const Entry entry = buckets_[current_].back();
       buckets_[current_].pop_back();
       if (nodes_[entry.at].distance < entry.distance) continue;

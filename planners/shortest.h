@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "planners/grid.h"
+#include "planners/problem.h"
 
 namespace kb::planners {
 
@@ -19,16 +20,18 @@ inline constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 /// Octile distance from each cell to the nearest source, in cells; `kUnreached` if there is no path. Entries by index. With `stop_at`
 /// the computation ends when that cell is settled; cells farther away may then be wrong or unreached.
-/// O(reached cells). See note [buckets as wide as the shortest move].
+/// O(reached cells). See note [buckets as wide as the shortest move]. A `watch` that says stop ends any of the computations of this file,
+/// and then what they return is no answer; without one they run to their end.
 struct DistanceField {
   std::vector<double> distance;
   std::uint64_t settled = 0;
 };
 [[nodiscard]] DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources,
-                                           std::optional<Cell> stop_at = std::nullopt);
+                                           std::optional<Cell> stop_at = std::nullopt, Watch* watch = nullptr);
 
 /// The same from one cell, stored as level = -distance, the activity of the neural map. Returns how many cells were settled.
-std::uint64_t level_field(const Grid& grid, Cell source, std::vector<double>& level, std::optional<Cell> stop_at = std::nullopt);
+std::uint64_t level_field(const Grid& grid, Cell source, std::vector<double>& level, std::optional<Cell> stop_at = std::nullopt,
+                          Watch* watch = nullptr);
 
 /// A distance, in cells, that is offered to a cell.
 struct Offer {
@@ -41,7 +44,8 @@ std::uint64_t spread(const Grid& grid, std::vector<double>& levels, std::vector<
 
 /// A shortest path from a cell to the nearest of the cells marked in `marks` (entries by index), including both ends; empty if none can be
 /// reached. O(cells nearer than that).
-[[nodiscard]] std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks);
+[[nodiscard]] std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks,
+                                                   Watch* watch = nullptr);
 
 /// Descends a distance field to a source. Each move is the one with the largest drop per length, ties to the lowest direction. The field
 /// must be exact along the path. Empty if `from` is unreached.
@@ -52,7 +56,7 @@ class Astar {
  public:
   explicit Astar(const Grid& grid);
   /// The cells of a shortest path, including both ends; empty if there is none. Both ends must be free.
-  [[nodiscard]] std::vector<Cell> search(Cell from, Cell to);
+  [[nodiscard]] std::vector<Cell> search(Cell from, Cell to, Watch* watch = nullptr);
   /// Length of the last path found, in cells.
   [[nodiscard]] double length() const { return length_; }
   /// The cells that the last search reached. `distance` gives their distances from its start: exact if the cell was expanded, else not

@@ -137,18 +137,26 @@ void print_answer(const Work& work, const plans::Method& method, const plans::Re
   for (const auto& [what, place] : result.statistics.places) work.session.print(fmt::format("    {:<30} {}\n", what, place_text(place, work.map)));
 }
 
+plans::Result answer_with_progress(const Work& work, const plans::Method& method, const plans::Problem& problem) {
+  const std::string what = fmt::format("% by {}", method.name);
+  Progress progress(work.session, what);
+  plans::RunOptions run = work.run();
+  run.progress = [&](double share) { progress.show(static_cast<std::uint64_t>(100.0 * share)); };
+  return plan(method, problem, run);
+}
+
 // Answers one question, with a panel of the picture for each method.
 int answer_one(Work& work) {
   const auto problem = read_problem(work);
   if (!problem) return kErrors;
-  const double optimum_m = plan(*plans::find_method("astar"), *problem).length_m;
+  const double optimum_m = plan(*plans::find_method("astar"), *problem, work.run()).length_m;   // 0 if the budget ends it
   std::vector<plans::Result> results;
   std::vector<plans::Panel> panels;
   std::string csv;
   const bool draws = !work.options.svg.empty();   // on a large map, a field takes longer than the path
   results.reserve(work.methods.size());
   for (const plans::Method* method : work.methods) {
-    const plans::Result& result = results.emplace_back(plan(*method, *problem, work.run()));
+    const plans::Result& result = results.emplace_back(answer_with_progress(work, *method, *problem));
     const std::string text = describe(result, optimum_m, work.map);
     print_answer(work, *method, result, text);
     if (result.repelled_from_m > 0.0 && result.outcome != plans::Outcome::kReached) {
@@ -222,7 +230,7 @@ Run setup_plan(CLI::App& app) {
   app.add_flag("--times", options->times, "With --scen: also print the median time of a row, which differs between machines")->needs(scen);
   app.add_option("--seed", options->seed, "The seed of the methods that use random numbers")->type_name("N")->transform(is_whole_number("seed"))->capture_default_str();
   app.add_option("--threads", options->threads, "How many threads share the rows of --scen (all cores); the answers do not depend on it")->transform(is_count(1, 1024));
-  app.add_option("--budget", options->budget, "How long a method may take for one path, such as 500ms; astar, neural, fairway and fairway-bug may take longer")->type_name("TIME")->check(is_duration());
+  app.add_option("--budget", options->budget, "How long a method may take for one path, such as 500ms")->type_name("TIME")->check(is_duration());
   refuse_shared_standard_output(app, {svg, csv});
   for (CLI::Option* const with_a_map : {from, to, scen, svg, csv}) list->excludes(with_a_map);
   app.callback([options] {
