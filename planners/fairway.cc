@@ -78,13 +78,13 @@ std::vector<float> cell_potential(const Grid& grid, Cell goal, Watch* watch) {
 Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potential, Watch* watch) {
   Basin basin;
   basin.pointer.assign(grid.size(), Basin::kNoPointer);
-  basin.inside.assign(grid.size(), 0);
+  basin.rest.assign(grid.size(), std::numeric_limits<float>::infinity());
   if (grid.blocked(goal)) return basin;
   constexpr std::uint8_t kUnknown = 254;
   std::fill(basin.pointer.begin(), basin.pointer.end(), kUnknown);
   const CellIndex end = grid.index(goal);
   basin.pointer[end] = Basin::kNoPointer;
-  basin.inside[end] = 1;
+  basin.rest[end] = 0.0f;
   std::vector<CellIndex> open = {end};
   while (!open.empty()) {
     if (watch != nullptr && watch->stopped()) return basin;
@@ -96,8 +96,8 @@ Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potentia
       const CellIndex from = grid.neighbour(at, k);
       // Cells beside the goal all point to it.
       if (basin.pointer[from] == kUnknown) basin.pointer[from] = at == end ? static_cast<std::uint8_t>((k + 4) % 8) : steepest(grid, potential, from);
-      if (basin.inside[from] != 0 || basin.pointer[from] != (k + 4) % 8) continue;
-      basin.inside[from] = 1;
+      if (basin.has(from) || basin.pointer[from] != (k + 4) % 8) continue;
+      basin.rest[from] = basin.rest[at] + static_cast<float>(kMoveLengths[k]);
       open.push_back(from);
     }
   }
@@ -114,7 +114,7 @@ Fairway find_fairway(const Grid& grid, Cell start, Cell goal, Watch* watch) {
   const Basin basin = find_basin(grid, goal, potential, watch);
   fairway.basin_cells = basin.cells;
   if (is_over(watch)) return fairway;
-  fairway.cells = shortest_to_marked(grid, start, basin.inside, watch);
+  fairway.cells = shortest_to_entry(grid, start, basin.rest, watch);
   if (fairway.cells.empty()) return fairway;
   fairway.approach = fairway.cells.size() - 1;
   for (CellIndex at = grid.index(fairway.cells.back()); at != grid.index(goal);) {
@@ -148,11 +148,11 @@ Picture draw_fairway(const Problem& problem, const Result&) {
   Picture picture;
   picture.field.assign(potential.begin(), potential.end());
   const Basin basin = find_basin(grid, problem.goal_cell(), potential);
-  picture.basin = basin.inside;
+  for (CellIndex at = 0; at < grid.size(); ++at) picture.basin.push_back(basin.has(at) ? 1 : 0);
   const int every = std::max(2, static_cast<int>(std::lround(std::sqrt(static_cast<double>(grid.free_cells()) / 500.0))));
   for (std::int32_t y = every / 2; y < grid.height(); y += every) {
     for (std::int32_t x = every / 2; x < grid.width(); x += every) {
-      if (grid.blocked({x, y}) || basin.inside[grid.index({x, y})] == 0) continue;
+      if (grid.blocked({x, y}) || !basin.has(grid.index({x, y}))) continue;
       std::vector<Cell> line = {{x, y}};
       while (line.back() != problem.goal_cell()) {
         line.push_back(line.back() + kDirections[basin.pointer[grid.index(line.back())]]);

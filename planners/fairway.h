@@ -3,11 +3,14 @@
 //
 //  1. Every free cell points to the legal neighbour with the steepest descent of U; neighbours of the goal point to the goal.
 //  2. The basin B of the goal is the set of cells whose pointers lead there: a search backwards from the goal, O(cells).
-//  3. The approach is a shortest path from the start to the nearest cell of B; from there the pointers lead on.
+//  3. The approach leads from the start to the first cell of B on it, such that approach and pointers together are shortest. (The cell
+//     of B that is nearest to the start, which is the paper's choice, can be one from which the pointers lead a long way round.)
 //
 // The method is complete on the grid, since the goal is in B. If B is small, it is a shortest-path search under another name; the share
 // of the approach says to what degree.
 #pragma once
+
+#include <limits>
 
 #include "planners/potential.h"
 
@@ -20,8 +23,9 @@ namespace kb::planners {
 
 struct Basin {
   std::vector<std::uint8_t> pointer;   ///< by index: direction of the steepest descent, or kNoPointer
-  std::vector<std::uint8_t> inside;    ///< by index: 1 if the pointers lead to the goal
+  std::vector<float> rest;             ///< by index: length of the way by the pointers to the goal, in cells; infinite if they do not lead there
   std::size_t cells = 0;               ///< how many are inside
+  [[nodiscard]] bool has(CellIndex at) const { return rest[at] < std::numeric_limits<float>::infinity(); }
   static constexpr std::uint8_t kNoPointer = 255;
 };
 [[nodiscard]] Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potential, Watch* watch = nullptr);

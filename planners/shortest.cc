@@ -43,9 +43,9 @@ class Buckets {
 bool is_stopped(Watch* watch, std::size_t turns) { return watch != nullptr && watch->stopped(turns); }
 
 // Settles cells outwards from the sources, bucket by bucket, over a field that is unreached everywhere, until `watch` says stop or
-// `done` returns true; that is asked after each bucket, with the distance below which all cells are settled. `settled` is told each cell.
-template <class Kept, class Settled, class Done>
-std::uint64_t grow(const Grid& grid, std::vector<double>& field, const std::vector<Cell>& sources, const Settled& settled,
+// `done` returns true; that is asked after each bucket, with the distance below which all cells are settled. `goes_on` is asked of each settled cell.
+template <class Kept, class GoesOn, class Done>
+std::uint64_t grow(const Grid& grid, std::vector<double>& field, const std::vector<Cell>& sources, const GoesOn& goes_on,
                    const Done& done, Watch* watch) {
   Buckets<CellIndex> buckets;
   double* const level = field.data();
@@ -63,7 +63,7 @@ std::uint64_t grow(const Grid& grid, std::vector<double>& field, const std::vect
       const double d = Kept::kSign * level[at];
       if (d < low) continue;   // settled already, by a shorter way
       ++count;
-      settled(at);
+      if (!goes_on(at)) continue;
       for (unsigned open = moves[at]; open != 0; open &= open - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(open));
         const auto to = grid.neighbour(at, k);
@@ -82,6 +82,8 @@ std::uint64_t grow(const Grid& grid, std::vector<double>& field, const std::vect
   return count;
 }
 
+constexpr auto kFromAll = [](CellIndex) { return true; };
+
 // Whether a field has come to a cell; without a cell never, so that all of the field is settled.
 auto has_come_to(const Grid& grid, std::optional<Cell> cell, const std::vector<double>& field) {
   const CellIndex last = cell && grid.contains(*cell) ? grid.index(*cell) : 0;   // cell 0 is border and is never reached
@@ -92,13 +94,13 @@ auto has_come_to(const Grid& grid, std::optional<Cell> cell, const std::vector<d
 
 DistanceField distance_field(const Grid& grid, const std::vector<Cell>& sources, std::optional<Cell> stop_at, Watch* watch) {
   DistanceField field{std::vector<double>(grid.size(), kUnreached), 0};
-  field.settled = grow<AsDistance>(grid, field.distance, sources, [](CellIndex) {}, has_come_to(grid, stop_at, field.distance), watch);
+  field.settled = grow<AsDistance>(grid, field.distance, sources, kFromAll, has_come_to(grid, stop_at, field.distance), watch);
   return field;
 }
 
 std::uint64_t level_field(const Grid& grid, Cell source, std::vector<double>& level, std::optional<Cell> stop_at, Watch* watch) {
   level.assign(grid.size(), -kUnreached);
-  return grow<AsLevel>(grid, level, {source}, [](CellIndex) {}, has_come_to(grid, stop_at, level), watch);
+  return grow<AsLevel>(grid, level, {source}, kFromAll, has_come_to(grid, stop_at, level), watch);
 }
 
 // As `grow`, but over a field that has distances already. A cell may be in several buckets, so an entry counts only while its
@@ -136,17 +138,21 @@ std::uint64_t spread(const Grid& grid, std::vector<double>& levels, std::vector<
   return count;
 }
 
-std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks, Watch* watch) {
+std::vector<Cell> shortest_to_entry(const Grid& grid, Cell from, const std::vector<float>& rest, Watch* watch) {
   std::vector<double> distance(grid.size(), kUnreached);
   CellIndex best = 0;
   double least = kUnreached;
   grow<AsDistance>(grid, distance, {from},
                    [&](CellIndex at) {
-                     if (marks[at] == 0 || distance[at] >= least) return;
-                     least = distance[at];
-                     best = at;
+                     if (std::isinf(rest[at])) return true;
+                     const double all = distance[at] + static_cast<double>(rest[at]);
+                     if (all < least) {
+                       least = all;
+                       best = at;
+                     }
+                     return false;
                    },
-                   [&](double) { return least != kUnreached; }, watch);
+                   [&](double high) { return high >= least; }, watch);
   if (least == kUnreached) return {};
   std::vector<Cell> path = descend(grid, distance, grid.cell(best));
   std::reverse(path.begin(), path.end());

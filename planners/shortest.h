@@ -42,10 +42,10 @@ struct Offer {
 /// size of the map. An offer that does not improve its cell is ignored. Returns how many cells became nearer.
 std::uint64_t spread(const Grid& grid, std::vector<double>& levels, std::vector<Offer> offers);
 
-/// A shortest path from a cell to the nearest of the cells marked in `marks` (entries by index), including both ends; empty if none can be
-/// reached. O(cells nearer than that).
-[[nodiscard]] std::vector<Cell> shortest_to_marked(const Grid& grid, Cell from, const std::vector<std::uint8_t>& marks,
-                                                   Watch* watch = nullptr);
+/// A path from a cell to the first cell on it from which the rest of the way is known, such that path and rest together are shortest.
+/// `rest`: by index, the length from there on in cells; infinite where it is not known. Includes both ends; empty if no such cell can be
+/// reached. O(cells nearer than path and rest).
+[[nodiscard]] std::vector<Cell> shortest_to_entry(const Grid& grid, Cell from, const std::vector<float>& rest, Watch* watch = nullptr);
 
 /// Descends a distance field to a source. Each move is the one with the largest drop per length, ties to the lowest direction. The field
 /// must be exact along the path. Empty if `from` is unreached.

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
+#include "planners/method.h"
 #include "planners/shortest.h"
 #include "tests/unit/planners/planning.h"
 
@@ -19,7 +23,7 @@ TEST(Basin, leads_to_the_goal_from_every_cell_and_holds_every_cell_that_does) {
     for (std::size_t steps = 0; basin.pointer[end] != Basin::kNoPointer && steps < arena.grid.size(); ++steps) {
       end = static_cast<CellIndex>(static_cast<std::int32_t>(end) + arena.grid.steps()[basin.pointer[end]]);
     }
-    if (basin.inside[at] != 0) {
+    if (basin.has(at)) {
       EXPECT_EQ(end, arena.grid.index(goal));
       ++inside;
     } else {
@@ -42,6 +46,24 @@ TEST(Fairway, is_found_wherever_there_is_a_way_and_only_there) {
     apart += way ? 0 : 1;
   }
   EXPECT_GT(apart, 10);
+}
+
+// The nearest cell of the basin may be one from which the pointers lead a long way round.
+TEST(Fairway, is_hardly_longer_than_the_shortest_path) {
+  std::vector<double> ratios;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    const Grid grid = testing::random_grid(40, 40, 0.2, seed);
+    const Cell from{static_cast<std::int32_t>(seed % 20), 3}, to{36, static_cast<std::int32_t>(seed * 3 % 40)};
+    if (grid.blocked(from) || grid.blocked(to)) continue;
+    const Problem problem = testing::problem_between(grid, from, to);
+    const Result result = plan(*find_method("fairway"), problem), shortest = plan(*find_method("astar"), problem);
+    if (shortest.outcome == Outcome::kReached) ratios.push_back(result.length_m / shortest.length_m);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  ASSERT_GT(ratios.size(), 60u);
+  EXPECT_GE(ratios.front(), 1.0 - 1e-9);
+  EXPECT_LE(ratios[ratios.size() / 2], 1.03);
+  EXPECT_LE(ratios[ratios.size() * 95 / 100], 1.2);
 }
 
 TEST(Fairway, needs_no_approach_from_inside_of_the_basin) {
