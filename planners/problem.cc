@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kOutcomes = {"reached", "unreachable", "trapped", "limit",
                                                        "numeric", "conflict",    "invalid"};
-constexpr std::array<std::string_view, 9> kFaults = {"",
+constexpr std::array<std::string_view, 10> kFaults = {"",
                                                      "the map has no cells",
                                                      "a coordinate is no finite number",
                                                      "the start lies outside of the map",
@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 9> kFaults = {"",
                                                      "the start is blocked",
                                                      "the goal is blocked",
                                                      "a parameter is out of its range",
+                                                     "two robots start in the same cell",
                                                      "the method knows no moving obstacles"};
 constexpr std::array<std::string_view, 4> kTraps = {"", "rest", "chatter", "cycle"};
 constexpr std::array<std::string_view, 8> kStops = {"", "steps", "generations", "sweeps", "isolines", "room", "time", "cancelled"};

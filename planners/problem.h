@@ -49,6 +49,7 @@ enum class Fault : std::uint8_t {
   kStartOutside, kGoalOutside,
   kStartBlocked, kGoalBlocked,
   kBadParameter,    ///< a parameter of the method, or the tolerance, is out of its range
+  kSharedStart,     ///< of a group: two robots start in the same cell
   kMoversUnknown,   ///< there are moving obstacles, and the method takes none
 };
 [[nodiscard]] std::string_view name(Fault fault);

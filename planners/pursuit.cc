@@ -53,7 +53,10 @@ Point pursuit_acceleration(const MovingPoint& robot, const MovingPoint& goal, st
 PursuitResult pursue(const PursuitScene& scene, const PursuitParameters& parameters, const PursuitRun& how,
                      const RunOptions& run) {
   PursuitResult result;
-  if (!is_usable(parameters, how) || !scene.goal) return result;
+  if (!is_usable(parameters, how) || !scene.goal) {
+    result.fault = Fault::kBadParameter;
+    return result;
+  }
   result.outcome = Outcome::kLimit;
   result.least_clearance_m = std::numeric_limits<double>::infinity();
   Watch watch(run);

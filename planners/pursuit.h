@@ -54,9 +54,10 @@ struct PursuitRun {
   double tolerance_m_s = 0.05;    ///< ... its velocity differs from the goal's by at most this,
   double hold_s = 0.5;            ///< ... and both hold for this long
 };
-/// kReached: the goal was caught. kNumeric: the robot touched an obstacle. kLimit: neither in time. kInvalid: a parameter is not positive.
+/// kReached: the goal was caught. kNumeric: the robot touched an obstacle. kLimit: neither in time. kInvalid: `fault` says why.
 struct PursuitResult {
   Outcome outcome = Outcome::kInvalid;
+  Fault fault = Fault::kNone;           ///< kInvalid: a parameter is not positive, or there is no goal (kBadParameter)
   double time_s = 0.0;                  ///< when it ended
   double least_clearance_m = 0.0;       ///< to any obstacle; infinite if there are none
   std::vector<Point> robot, goal;       ///< tracks, one point every tenth of a second

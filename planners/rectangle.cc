@@ -152,8 +152,11 @@ RectangleResult drive_rectangle(const RectangleField& field, const Pose& start, 
   const bool usable = is_positive(how.turn_gain) && is_positive(how.top_speed) && is_positive(how.mass) &&
                       is_positive(how.step_s) && is_positive(how.tolerance_m) && is_positive(how.time_s) &&
                       how.friction >= 0.0 && how.turn_friction >= 0.0 && is_positive(field.shape().length_m) &&
-                      is_positive(field.shape().width_m) && is_finite(start.at) && std::isfinite(start.heading_rad);
-  if (!usable) return {};
+                      is_positive(field.shape().width_m);
+  RectangleResult refused;
+  if (!is_finite(start.at) || !std::isfinite(start.heading_rad)) refused.fault = Fault::kNotFinite;
+  if (!usable) refused.fault = Fault::kBadParameter;
+  if (refused.fault != Fault::kNone) return refused;
   return RectangleRun(field, start, how, run).go();
 }
 

@@ -66,6 +66,7 @@ struct RectangleDrive {
 
 struct RectangleResult {
   Outcome outcome = Outcome::kInvalid;   ///< kReached, kTrapped, kLimit, kNumeric (touched an obstacle), kInvalid
+  Fault fault = Fault::kNone;            ///< kInvalid: a parameter or side is not positive (kBadParameter), or the start is not finite (kNotFinite)
   std::vector<Pose> poses;               ///< one every twentieth of a second
   Trap trap;
   double time_s = 0.0;

@@ -84,9 +84,13 @@ Swarm::Swarm(const Grid& grid, const FuzzyTable& table, const std::vector<Robot>
   wishes_.assign(grid.size() + kSpare, kStandStill);
   slots_.reserve(robots.size());
   for (const Robot& robot : robots) {
-    if (grid.blocked(robot.at) || grid.blocked(robot.goal)) return;
+    fault_ = grid.blocked(robot.at) ? Fault::kStartBlocked : grid.blocked(robot.goal) ? Fault::kGoalBlocked : Fault::kNone;
+    if (!ok()) return;
     std::uint8_t& here = taken_[grid.index(robot.at)];
-    if (std::exchange(here, std::uint8_t{0xFF}) != 0) return;
+    if (std::exchange(here, std::uint8_t{0xFF}) != 0) {
+      fault_ = Fault::kSharedStart;
+      return;
+    }
     const auto place = [](Cell c) { return Place{static_cast<std::int16_t>(c.x), static_cast<std::int16_t>(c.y)}; };
     slots_.push_back({place(robot.at), place(robot.goal)});
     arrived_ += robot.at == robot.goal ? 1 : 0;
@@ -94,7 +98,6 @@ Swarm::Swarm(const Grid& grid, const FuzzyTable& table, const std::vector<Robot>
   numbers_.resize(slots_.size());
   std::iota(numbers_.begin(), numbers_.end(), 0u);
   choices_.assign(slots_.size(), kStandStill);
-  ok_ = true;
   sort_by_place();
 }
 
@@ -221,7 +224,8 @@ std::size_t Swarm::step(unsigned threads) {
 SwarmResult Swarm::run(const RunOptions& options, std::uint64_t max_ticks, unsigned threads) {
   SwarmResult result;
   result.arrived = arrived_;
-  if (!ok_) return result;
+  result.fault = fault_;
+  if (!ok()) return result;
   Watch watch(options);
   const std::uint64_t patience = 3 * static_cast<std::uint64_t>(grid_->width() + grid_->height());
   std::uint64_t idle = 0;

@@ -26,6 +26,7 @@ namespace kb::planners {
 
 struct SwarmResult {
   Outcome outcome = Outcome::kInvalid;   ///< kReached: all arrived; kTrapped: no robot moved for 3 (W + H) ticks; kLimit; kInvalid
+  Fault fault = Fault::kNone;            ///< kInvalid: of the first robot with a fault
   std::uint64_t ticks = 0;               ///< how many were run
   std::size_t arrived = 0;
   std::uint64_t makespan = 0;            ///< tick of the last arrival
@@ -41,9 +42,10 @@ class Swarm {
   /// The table has the form of kFuzzyTable: in row g + 8 c the goal lies nearest to direction g (0 = +x, counter-clockwise), clockwise of it if
   /// c is 1, on it or counter-clockwise of it if c is 0. Bit k of the column is set if a move in direction k is not possible, whether for the
   /// cell itself or for one beside a diagonal.
-  /// Each robot must be in a free cell of its own and have its goal in a free cell; otherwise `ok()` is false.
+  /// Each robot must be in a free cell of its own and have its goal in a free cell; otherwise `ok()` is false and `fault()` says why.
   Swarm(const Grid& grid, const FuzzyTable& table, const std::vector<Robot>& robots);
-  [[nodiscard]] bool ok() const { return ok_; }
+  [[nodiscard]] bool ok() const { return fault_ == Fault::kNone; }
+  [[nodiscard]] Fault fault() const { return fault_; }
 
   /// Runs one tick for all robots, and returns how many moved. Robots that have arrived stay where they are, as obstacles. O(robots),
   /// independent of the size of the map. If the system cannot start that many threads, those that it starts share the work.
@@ -80,7 +82,7 @@ class Swarm {
 
   const Grid* grid_;
   std::array<std::array<std::uint8_t, 256>, 32> table_;   // by the code of the goal's direction (fuzzy_rules.h)
-  bool ok_ = false;
+  Fault fault_ = Fault::kNone;
   std::int32_t stride_;
   // By slot. Slots are kept roughly in the order of places, so that what is near in the world is near in memory.
   std::vector<Slot> slots_;

@@ -86,6 +86,7 @@ TEST(Pursuit, refuses_parameters_that_make_no_sense) {
   EXPECT_EQ(pursue(scene, {}, {}, {}).outcome, Outcome::kInvalid);   // no goal
   scene.goal = [](double) { return MovingPoint{}; };
   EXPECT_EQ(pursue(scene, {.top_speed = 0.0}, {}, {}).outcome, Outcome::kInvalid);
+  EXPECT_EQ(pursue(scene, {.top_speed = 0.0}, {}, {}).fault, Fault::kBadParameter);
   EXPECT_EQ(pursue(scene, {}, {.step_s = std::nan("")}, {}).outcome, Outcome::kInvalid);
 }
 

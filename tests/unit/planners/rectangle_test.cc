@@ -193,6 +193,7 @@ TEST(Rectangle, refuses_a_shape_without_extent) {
   const ShapeClearance shapes = corridor();
   const RectangleField field(shapes, {0.0, 0.4}, {20.0, 0.0}, std::nullopt, 0.1, {});
   EXPECT_EQ(drive_rectangle(field, {}, {}, {}).outcome, Outcome::kInvalid);
+  EXPECT_EQ(drive_rectangle(field, {}, {}, {}).fault, Fault::kBadParameter);
 }
 
 }  // namespace

@@ -131,6 +131,9 @@ TEST(Swarm, refuses_robots_in_walls_or_in_the_same_cell) {
   EXPECT_FALSE(Swarm(grid, kFuzzyTable, {{{0, 0}, {2, 2}}}).ok());
   EXPECT_FALSE(Swarm(grid, kFuzzyTable, {{{0, 0}, {1, 1}}, {{0, 0}, {1, 0}}}).ok());
   EXPECT_EQ(Swarm(grid, kFuzzyTable, {{{2, 2}, {0, 0}}}).run({}, 10).outcome, Outcome::kInvalid);
+  EXPECT_EQ(Swarm(grid, kFuzzyTable, {{{2, 2}, {0, 0}}}).run({}, 10).fault, Fault::kStartBlocked);
+  EXPECT_EQ(Swarm(grid, kFuzzyTable, {{{0, 0}, {2, 2}}}).fault(), Fault::kGoalBlocked);
+  EXPECT_EQ(Swarm(grid, kFuzzyTable, {{{0, 0}, {1, 1}}, {{0, 0}, {1, 0}}}).fault(), Fault::kSharedStart);
 }
 
 }  // namespace
