@@ -1,5 +1,5 @@
 // The fairway method (Filimonov and Filimonov 2019): of the lines of force that end at the goal, take the one nearest to the start, go to
-// it, and let the field do the rest. The paper gives no algorithm; on the grid there is a simple one:
+// it, and let the field do the rest. The paper gives no algorithm; on the grid there is a simple one, which differs in its third step:
 //
 //  1. Every free cell points to the legal neighbour with the steepest descent of U; neighbours of the goal point to the goal.
 //  2. The basin B of the goal is the set of cells whose pointers lead there: a search backwards from the goal, O(cells).
