@@ -24,7 +24,7 @@ namespace mts {
 
 /// Number of this layout. Emitted code asserts that it was made for the runtime that it meets.
 inline constexpr std::uint32_t kAbi = 2;
-// check_abi: 2 0b5f3340438d
+// check_abi: 2 cc03b890a661
 
 using Word = std::uint32_t;
 inline constexpr std::uint32_t kWordBits = 32;
@@ -51,8 +51,9 @@ struct Shape {
   std::uint32_t contested = 0;  ///< (level, cell) pairs that rules write differently: there are never more blends and conflicts in one tick
 
   [[nodiscard]] constexpr std::uint32_t cells() const { return facts + satellites + strategies; }
-  [[nodiscard]] constexpr std::uint32_t first_node() const { return atoms - nodes; }   ///< among the atoms
-  [[nodiscard]] constexpr std::uint32_t first_timer() const { return first_node() - timers; }
+  // Among the atoms. Not left to g++, which with -Os makes functions of them.
+  [[nodiscard, gnu::always_inline]] constexpr std::uint32_t first_node() const { return atoms - nodes; }
+  [[nodiscard, gnu::always_inline]] constexpr std::uint32_t first_timer() const { return atoms - nodes - timers; }
   [[nodiscard]] static constexpr std::uint32_t words_for(std::uint32_t bits) { return (bits + kWordBits - 1) / kWordBits; }
   /// Words of the summary of a set of so many words: see note [summaries].
   [[nodiscard]] static constexpr std::uint32_t summary_for(std::uint32_t words) {

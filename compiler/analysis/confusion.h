@@ -43,8 +43,6 @@ class Confusions {
   /// Whether `narrow` is a special case of `wide`: its definition speaks of `wide`; or `wide` is never less certain where `narrow` is
   /// likely, and at some readings is seen, above the certainty `seen`, while `narrow` is as certainly not so.
   [[nodiscard]] bool special_case(program::CellId narrow, program::CellId wide, double seen);
-  /// A definition is written as an `or` of `and`s; at most so many of these are examined.
-  static constexpr std::size_t kMostConjunctions = 512;
   /// Whether all `and`s of the fact's definition are examined.
   [[nodiscard]] bool looked_into(program::CellId fact);
   /// Whether some reading takes part in both definitions.

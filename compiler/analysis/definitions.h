@@ -35,7 +35,7 @@ struct Definition {
 
 class Definitions {
  public:
-  /// At most so many `and`s of a definition are kept.
+  /// At most so many `and`s of a definition are kept, and looked into.
   static constexpr std::size_t kMostTerms = 512;
 
   /// `program` must outlive it.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compiler/analysis/confusion.h"
+#include "compiler/analysis/definitions.h"
 #include "compiler/analysis/subject.h"
 
 namespace kb::analysis {
@@ -57,7 +58,7 @@ void diagnose_confusable(const model::Model& model, const Program& program, Conf
   std::size_t pairs = 0;
   for (const program::Perceived& one : perceived) {
     if (!confusions.looked_into(one.fact)) {
-      diagnostics.report(Kind::kConfusionOfMany, one.span, {program[one.fact].name, std::to_string(Confusions::kMostConjunctions)});
+      diagnostics.report(Kind::kConfusionOfMany, one.span, {program[one.fact].name, std::to_string(Definitions::kMostTerms)});
     }
   }
   for (std::size_t k = 0; k < perceived.size(); ++k) {
