@@ -119,11 +119,7 @@ int unknown_command(std::string_view word) {
   return usage_error(message, nullptr);
 }
 
-/// The first word that `command` has no place for.
-std::string unexpected(const CLI::App& command) {
-  const std::string word = command.remaining(true).front();
-  if (!word.starts_with('-')) return diagnostics::quoted_code(word) + " is one argument too many";
-  const std::string name = word.substr(0, word.find('='));
+std::string unknown_option(const CLI::App& command, std::string_view name) {
   std::string message = "there is no option " + diagnostics::quoted_code(name);
   std::vector<std::string> options;
   for (const CLI::Option* option : command.get_options()) {
@@ -131,6 +127,14 @@ std::string unexpected(const CLI::App& command) {
   }
   if (const auto better = diagnostics::closest(name, std::vector<std::string_view>(options.begin(), options.end()))) message += "; did you mean `" + *better + "`?";
   return message;
+}
+
+/// What to say of the words that there is no place for: something of the first. Behind `--` nothing is an option.
+std::string unexpected(const CLI::App& command, const std::vector<std::string>& words) {
+  const auto first = std::find_if(words.begin(), words.end(), [](const std::string& word) { return word != "--"; });
+  if (first == words.end()) return "`--` is one argument too many";
+  if (first == words.begin() && first->starts_with('-')) return unknown_option(command, first->substr(0, first->find('=')));
+  return diagnostics::quoted_code(*first) + " is one argument too many";
 }
 
 // `kbc help` and `kbc help COMMAND`, as users of git may write it.
@@ -222,7 +226,7 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
-    return usage_error(unexpected(begun == nullptr ? line.app : *begun->app), begun);
+    return usage_error(unexpected(begun == nullptr ? line.app : *begun->app, line.app.remaining(true)), begun);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return printed(line.app.exit(error));   // --help, --version
     const std::string empty = begun == nullptr ? "" : left_empty(*begun->app, words);   // being empty is why it is no duration, no number, ...
