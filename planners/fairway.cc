@@ -14,7 +14,7 @@ namespace {
 bool is_over(const Watch* watch) { return watch != nullptr && watch->why() != Stop::kNone; }
 
 // In passes over all cells: a look every 4096 of them.
-bool looks_at(CellIndex at, Watch* watch) { return at % 4096 == 0 && watch != nullptr && watch->stopped_now(); }
+bool is_stopped_at(CellIndex at, Watch* watch) { return at % 4096 == 0 && is_stopped(watch, 4096); }
 
 // The length of the shortest moves to the nearest blocked cell, at most `cap`, found in two passes over the cells (chamfer).
 std::vector<float> chamfer(const Grid& grid, float cap, Watch* watch) {
@@ -24,12 +24,12 @@ std::vector<float> chamfer(const Grid& grid, float cap, Watch* watch) {
   const auto first = grid.index({0, 0}), last = grid.index({grid.width() - 1, grid.height() - 1});
   const auto at = [&](CellIndex i, int k) { return d[grid.neighbour(i, static_cast<std::size_t>(k))]; };
   for (CellIndex i = first; i <= last; ++i) {
-    if (looks_at(i, watch)) return d;
+    if (is_stopped_at(i, watch)) return d;
     if (d[i] == 0.0f) continue;
     d[i] = std::min({d[i], at(i, 4) + 1.0f, at(i, 6) + 1.0f, at(i, 5) + kRoot, at(i, 7) + kRoot});
   }
   for (CellIndex i = last + 1; i-- > first;) {
-    if (looks_at(i, watch)) return d;
+    if (is_stopped_at(i, watch)) return d;
     if (d[i] == 0.0f) continue;
     d[i] = std::min({d[i], at(i, 0) + 1.0f, at(i, 2) + 1.0f, at(i, 1) + kRoot, at(i, 3) + kRoot});
   }
@@ -59,7 +59,7 @@ std::vector<float> cell_potential(const Grid& grid, Cell goal, Watch* watch) {
   const float k_r = repelling_gain(static_cast<float>(parameters.balance_cells), zone);
   std::vector<float> u = chamfer(grid, zone + 1.0f, watch);
   for (std::int32_t y = 0; y < grid.height(); ++y) {
-    if (watch != nullptr && watch->stopped(static_cast<std::size_t>(grid.width()))) return u;
+    if (is_stopped(watch, static_cast<std::size_t>(grid.width()))) return u;
     for (std::int32_t x = 0; x < grid.width(); ++x) {
       float& value = u[grid.index({x, y})];
       if (value == 0.0f) continue;
@@ -87,7 +87,7 @@ Basin find_basin(const Grid& grid, Cell goal, const std::vector<float>& potentia
   basin.rest[end] = 0.0f;
   std::vector<CellIndex> open = {end};
   while (!open.empty()) {
-    if (watch != nullptr && watch->stopped()) return basin;
+    if (is_stopped(watch)) return basin;
     const CellIndex at = open.back();
     open.pop_back();
     ++basin.cells;

@@ -145,6 +145,9 @@ class Watch {
   Stop stop_ = Stop::kNone;
 };
 
+/// For computations that may be watched: what `watch` says, and false without one.
+[[nodiscard]] inline bool is_stopped(Watch* watch, std::size_t turns = 1) { return watch != nullptr && watch->stopped(turns); }
+
 // ---- paths
 /// Length of a polyline, in the unit of its points.
 [[nodiscard]] double length(const std::vector<Point>& path);

@@ -40,8 +40,6 @@ class Buckets {
   std::array<Bucket, 3> three_ = {Bucket(&memory_), Bucket(&memory_), Bucket(&memory_)};
 };
 
-bool is_stopped(Watch* watch, std::size_t turns) { return watch != nullptr && watch->stopped(turns); }
-
 // Settles cells outwards from the sources, bucket by bucket, over a field that is unreached everywhere, until `watch` says stop or
 // `done` returns true; that is asked after each bucket, with the distance below which all cells are settled. `goes_on` is asked of each settled cell.
 template <class Kept, class GoesOn, class Done>
@@ -225,7 +223,7 @@ std::vector<Cell> Astar::search(Cell from, Cell to, Watch* watch) {
   for (; current_ < buckets_.size(); ++current_) {
     // Within a bucket the order is arbitrary, so a cell may be improved after it was expanded; it is then expanded again.
     while (!buckets_[current_].empty()) {
-      if (is_stopped(watch, 1)) return {};
+      if (is_stopped(watch)) return {};
       const Entry entry = buckets_[current_].back();
       buckets_[current_].pop_back();
       if (nodes_[entry.at].distance < entry.distance) continue;

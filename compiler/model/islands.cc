@@ -24,8 +24,9 @@ class Islands {
       reach(l);   // what else lies behind it follows from that
     }
     if (draft_.diagnostics.errors() > 0) return;   // a route or a road that could not be read may lead there
-    begin_where_robots_are();
-    report_what_is_left();
+    begin_on_routes();
+    if (std::find(has_routes_.begin(), has_routes_.end(), false) != has_routes_.end()) begin_in_largest_parts();
+    if (std::find(reached_.begin(), reached_.end(), false) != reached_.end()) report_what_is_left();
   }
 
  private:
@@ -35,28 +36,26 @@ class Islands {
 
   /// Marks `start` and all that roads lead to from there.
   void reach(std::uint32_t start) {
-    if (reached_[start]) return;
-    reached_[start] = true;
     waiting_.push_back(start);
     while (!waiting_.empty()) {
       const std::uint32_t at = waiting_.back();
       waiting_.pop_back();
-      for (const std::uint32_t road : draft_.landmarks[at].out) {
-        const std::uint32_t to = draft_.roads[road].to;
-        if (reached_[to]) continue;
-        reached_[to] = true;
-        waiting_.push_back(to);
-      }
+      if (reached_[at]) continue;
+      reached_[at] = true;
+      for (const std::uint32_t road : draft_.landmarks[at].out) waiting_.push_back(draft_.roads[road].to);
     }
   }
 
-  /// On the landmarks of the routes; on a map without routes, whose missions are orders, somewhere in its largest part.
-  void begin_where_robots_are() {
+  void begin_on_routes() {
     has_routes_.assign(draft_.model.maps.size(), false);
     for (const LegInfo& leg : draft_.legs) {
       has_routes_[draft_.landmarks[leg.to].map] = true;
       reach(leg.to);
     }
+  }
+
+  /// The missions of a map without routes are orders.
+  void begin_in_largest_parts() {
     Sets parts = parts_of([](std::uint32_t) { return true; });
     std::vector<std::uint32_t> size(reached_.size(), 0);
     std::vector<std::uint32_t> largest(draft_.model.maps.size(), kNone32);   // by map
