@@ -1,6 +1,7 @@
 // A drive that goes on while it is served: its frames are those of the small drive, a tick every MS milliseconds (20).
 //
-//   live_sample [MS [PORT]]     says `port N`, then a line for each command; ends when its input does
+//   live_sample [MS [PORT [STOP]]]     says `port N`, then a line for each command; ends when its input does. It waits for a
+//                                      line of its input before it goes beyond tick STOP
 #include <poll.h>
 #include <unistd.h>
 
@@ -14,10 +15,13 @@
 
 namespace {
 
-bool input_ended() {
+enum class Input { kNothing, kByte, kEnd };
+
+Input look_at_input() {
   pollfd input{STDIN_FILENO, POLLIN, 0};
   char byte = 0;
-  return poll(&input, 1, 0) > 0 && read(STDIN_FILENO, &byte, 1) == 0;
+  if (poll(&input, 1, 0) <= 0) return Input::kNothing;
+  return read(STDIN_FILENO, &byte, 1) == 1 ? Input::kByte : Input::kEnd;
 }
 
 }  // namespace
@@ -38,8 +42,10 @@ int main(int argc, char** argv) {
   std::printf("port %u\n", page.port());
   std::fflush(stdout);
   const int tick_ms = argc > 1 ? std::atoi(argv[1]) : 20;
+  std::size_t stop = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : whole.frames.size();
   bool paused = false;
-  while (!input_ended()) {
+  for (Input input = look_at_input(); input != Input::kEnd; input = look_at_input()) {
+    if (input == Input::kByte) stop = whole.frames.size();
     for (const Command& command : page.commands()) {
       constexpr const char* kWords[] = {"close", "open", "press", "pause", "resume"};
       std::printf("%s %s\n", kWords[static_cast<int>(command.what)], command.name.c_str());
@@ -47,7 +53,7 @@ int main(int argc, char** argv) {
       if (command.what == Command::What::kPause || command.what == Command::What::kResume) paused = command.what == Command::What::kPause;
     }
     const std::size_t next = so_far.frames.size();
-    if (!paused && next < whole.frames.size()) {
+    if (!paused && next < stop) {
       so_far.frames.push_back(whole.frames[next]);
       for (const auto& stay : whole.stays) {
         if (stay.first == next) so_far.stays.push_back(stay);

@@ -13,7 +13,7 @@ async function simulation(t, ...options) {
   t.after(() => child.kill());      // also if the test fails
   child.stdout.on('data', (data) => lines.push(...String(data).trim().split('\n')));
   while (!lines.length) await new Promise((done) => setTimeout(done, 20));
-  return {lines, port: Number(lines[0].split(' ')[1]), child, end: () => new Promise((done) => { child.on('exit', done), child.stdin.end(); })};
+  return {lines, port: Number(lines[0].split(' ')[1]), child, release: () => child.stdin.write('\n'), end: () => new Promise((done) => { child.on('exit', done), child.stdin.end(); })};
 }
 function ask(port, path, {method = 'GET', headers = {}, body} = {}) {
   return new Promise((done, fail) => {
@@ -28,12 +28,11 @@ const json = {'Content-Type': 'application/json'};
 const send = (port, body, headers = json) => ask(port, '/live/command', {method: 'POST', headers, body: JSON.stringify(body)});
 
 test('a live page grows to the end of the drive and shows what the recording says', async (t) => {
-  const run = await simulation(t);
+  const run = await simulation(t, '20', '0', '60');
   const {page, faults, close} = await open(`http://127.0.0.1:${run.port}/`);
-  await until(page, () => waymark.drive.count > 30);
+  await until(page, () => waymark.drive.count === 60);
   assert.equal(await page.textContent('#live'), '● live');
-  const early = await page.evaluate(() => waymark.drive.count);
-  assert.ok(early < truth.length, 'the drive still goes on');
+  run.release();
   await until(page, (count) => waymark.drive.count === count && !waymark.live, truth.length);
   assert.equal(await page.textContent('#live'), 'over');
   assert.equal(await page.textContent('#outcome'), '✓ arrived');
@@ -53,9 +52,9 @@ test('a live page grows to the end of the drive and shows what the recording say
 });
 
 test('sliders close and open roads, by mouse and by keys; buttons press commands and pause', async (t) => {
-  const run = await simulation(t, '150');
+  const run = await simulation(t, '150', '0', '20');
   const {page, close} = await open(`http://localhost:${run.port}/`);
-  await until(page, () => waymark.drive.count > 3);
+  await until(page, () => waymark.drive.count === 20);
   await page.click('#tab-live');
   const slider = page.getByRole('slider', {name: 'Road LM7.E, LM7 – LM13'}), says = (text) => page.waitForSelector(`[data-road="LM7.E"][aria-valuetext="${text}"]`);
   await says('open');
@@ -71,10 +70,13 @@ test('sliders close and open roads, by mouse and by keys; buttons press commands
   await page.mouse.click(box.x + 3, box.y + box.height / 2);
   await says('open');
   await page.click('#live-panel button:has-text("Start1")');
+  run.release();
+  await until(page, () => waymark.drive.count > 20);
   await page.click('#live-panel button:has-text("Pause the simulation")');
   await page.waitForSelector('#live-panel button[aria-pressed="true"]');
-  await page.waitForTimeout(1000);
-  const halted = await page.evaluate(() => waymark.drive.count);
+  while (!run.lines.includes('pause')) await page.waitForTimeout(20);   // no tick after this line
+  const halted = JSON.parse((await ask(run.port, '/live/frames?from=0')).text).frames.count;
+  await until(page, (count) => waymark.drive.count === count, halted);
   await page.waitForTimeout(1000);
   assert.equal(await page.evaluate(() => waymark.drive.count), halted, 'it stands still');
   await page.click('#live-panel button:has-text("Pause the simulation")');

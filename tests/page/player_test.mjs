@@ -11,12 +11,18 @@ test('plays at the speed that is chosen, and pauses', () => withPage('drive.html
   await page.evaluate(() => document.activeElement.blur());
   await page.keyboard.press('Space');
   assert.equal(await page.getAttribute('#play', 'aria-label'), 'Pause');
-  const begin = await page.evaluate(() => [performance.now(), waymark.player.time]);
-  await until(page, () => waymark.player.time > 6);
-  const end = await page.evaluate(() => [performance.now(), waymark.player.time]);
+  // Measured by the clock of the frames themselves: a machine that stalls draws fewer of them, and no slower drive.
+  const speed = await page.evaluate(() => new Promise((done) => {
+    let begin;
+    const turn = (now) => {
+      begin ??= [now, waymark.player.time];
+      if (waymark.player.time > 6) done((waymark.player.time - begin[1]) / (now - begin[0]) * 1000);
+      else requestAnimationFrame(turn);
+    };
+    requestAnimationFrame(turn);
+  }));
   await page.keyboard.press('Space');
-  const speed = (end[1] - begin[1]) / (end[0] - begin[0]) * 1000;
-  assert.ok(speed > 3.2 && speed < 4.8, `four times as fast as the drive, not ${speed}`);
+  assert.ok(speed > 3.99 && speed < 4.01, `four times as fast as the drive, not ${speed}`);
   const at = await agrees(page);
   await page.waitForTimeout(150);
   assert.equal(await tick(page), at, 'it stands still');
@@ -87,23 +93,27 @@ test('jumps to a tick that the address names', async () => {
   await close();
 });
 
-test('loads ten minutes at once and scrubs them smoothly', () => withPage('long.html', async (page) => {
-  const {load, worst, middle, count} = await page.evaluate(() => {
-    const d = waymark.drive, times = [];
-    for (let k = 0; k < 60; ++k) {
-      const begin = performance.now();
-      waymark.go(Math.floor(d.count * ((k * 0.618) % 1)));
-      times.push(performance.now() - begin);
-    }
-    const entry = performance.getEntriesByType('navigation')[0];
-    return {count: d.count, load: entry.domContentLoadedEventEnd, worst: Math.max(...times), middle: times.sort((a, b) => a - b)[30]};
-  });
-  console.log(`${count} ticks: shown after ${load.toFixed(0)} ms; a jump takes ${middle.toFixed(1)} ms, at most ${worst.toFixed(1)} ms`);
-  assert.ok(count > 6000);
-  // An idle machine needs a tenth of both.
-  assert.ok(load < 5000, `shown after ${load} ms`);
-  assert.ok(middle < 150, `${middle} ms a jump`);
-}));
+/// Goes to 60 ticks all over the drive; the times are in milliseconds.
+const jumps = () => {
+  const d = waymark.drive, times = [];
+  for (let k = 0; k < 60; ++k) {
+    const begin = performance.now();
+    waymark.go(Math.floor(d.count * ((k * 0.618) % 1)));
+    times.push(performance.now() - begin);
+  }
+  const load = performance.getEntriesByType('navigation')[0].domContentLoadedEventEnd;
+  return {count: d.count, load, worst: Math.max(...times), middle: times.sort((a, b) => a - b)[30]};
+};
+
+test('a jump in ten minutes takes no longer than one in a short drive', async () => {
+  const measured = [];
+  for (const file of ['drive.html', 'long.html']) await withPage(file, async (page) => measured.push(await page.evaluate(jumps)));
+  for (const {count, load, worst, middle} of measured) console.log(`${count} ticks: shown after ${load.toFixed(0)} ms; a jump takes ${middle.toFixed(1)} ms, at most ${worst.toFixed(1)} ms`);
+  const [small, large] = measured;
+  assert.ok(large.count > 6000 && large.count > 20 * small.count);
+  // What walks over the whole drive would take more than twenty times as long.
+  assert.ok(large.middle < 8 * small.middle, `${large.middle} ms a jump, ${small.middle} in the short drive`);
+});
 
 test('looks as it should on a laptop, in the dark, and on a phone', async () => {
   for (const [name, options] of [['laptop', {}], ['dark', {colorScheme: 'dark'}], ['phone', {viewport: {width: 390, height: 844}, deviceScaleFactor: 2}]]) {
