@@ -57,12 +57,12 @@ same_bytes() {      # two builds, two folders, two locales, two time zones
 # ---- running them ----------------------------------------------------------------------------------------------------
 # What there is to see of a step that failed: what its failed tests printed, or else its last lines.
 explain() {         # log
-  awk '
-    /^ *[0-9]+\/[0-9]+ Test +#[0-9]+: / { shown = / ?\*\*\*/ && !/\*\*\*Skipped/ }
+  local printed
+  printed=$(awk '
+    /^ *[0-9]+\/[0-9]+ Test +#[0-9]+: / { shown = /\*\*\*/ && !/\*\*\*Skipped/ }
     /^ +Start +[0-9]+: / || /% tests passed, / { shown = 0 }
-    { last[NR % 60] = $0 }
-    shown { print; any = 1 }
-    END { if (!any) for (n = NR - 59; n <= NR; ++n) if (n > 0) print last[n % 60] }' "$1" | tail -n 100 | sed 's/^/        /'
+    shown' "$1" | tail -n 100)
+  sed 's/^/        /' <<<"${printed:-$(tail -n 60 "$1")}"
 }
 # Counts what a step has run: the tests of ctest, else the step itself.
 count() {           # log, exit code -> passed, failed
@@ -91,7 +91,7 @@ main() {
     if [ "$f" -eq 0 ]; then
       printf 'passed %5d s  %4d tests\n' $((SECONDS - begin)) "$p"
     else
-      printf 'FAILED %5d s  %4d of %d tests, see build/logs/%s.log\n' $((SECONDS - begin)) "$f" $((p + f)) "$step"
+      printf 'FAILED %5d s  %4d of %d tests\n' $((SECONDS - begin)) "$f" $((p + f))
       bad+=("$step")
     fi
   done

@@ -50,10 +50,11 @@ export async function agrees(page) {
   return at;
 }
 export async function shot(page, name) { await page.screenshot({path: path.join(folder, 'shots', `${name}.png`)}); }
-/// Waits until something holds in the page (its policy forbids what Playwright's own waiting does).
-export async function until(page, holds, argument) {
-  for (const end = Date.now() + 20000; Date.now() < end; await page.waitForTimeout(30)) {
-    if (await page.evaluate(holds, argument)) return;
+/// Waits until something holds: in a page (its policy forbids what Playwright's own waiting does), or here.
+export const until = (page, holds, argument) => eventually(() => page.evaluate(holds, argument), holds);
+export async function eventually(holds, told = holds) {
+  for (const end = Date.now() + 20000; Date.now() < end; await new Promise((done) => setTimeout(done, 30))) {
+    if (await holds()) return;
   }
-  assert.fail(`never: ${holds}`);
+  assert.fail(`never: ${told}`);
 }

@@ -3,7 +3,7 @@ import {test} from 'node:test';
 import assert from 'node:assert/strict';
 import http from 'node:http';
 import {spawn} from 'node:child_process';
-import {browse, truth, until, shot} from './browser.mjs';
+import {browse, truth, until, eventually, shot} from './browser.mjs';
 
 const {open} = browse();
 
@@ -12,7 +12,7 @@ async function simulation(t, ...options) {
   const child = spawn(process.env.KB_LIVE, options), lines = [];
   t.after(() => child.kill());      // also if the test fails
   child.stdout.on('data', (data) => lines.push(...String(data).trim().split('\n')));
-  while (!lines.length) await new Promise((done) => setTimeout(done, 20));
+  await eventually(() => lines.length);
   return {lines, port: Number(lines[0].split(' ')[1]), child, release: () => child.stdin.write('\n'), end: () => new Promise((done) => { child.on('exit', done), child.stdin.end(); })};
 }
 function ask(port, path, {method = 'GET', headers = {}, body} = {}) {
@@ -32,6 +32,8 @@ test('a live page grows to the end of the drive and shows what the recording say
   const {page, faults, close} = await open(`http://127.0.0.1:${run.port}/`);
   await until(page, () => waymark.drive.count === 60);
   assert.equal(await page.textContent('#live'), '● live');
+  const early = await page.evaluate(() => waymark.drive.count);
+  assert.ok(early < truth.length, 'the drive still goes on');
   run.release();
   await until(page, (count) => waymark.drive.count === count && !waymark.live, truth.length);
   assert.equal(await page.textContent('#live'), 'over');
@@ -74,7 +76,7 @@ test('sliders close and open roads, by mouse and by keys; buttons press commands
   await until(page, () => waymark.drive.count > 20);
   await page.click('#live-panel button:has-text("Pause the simulation")');
   await page.waitForSelector('#live-panel button[aria-pressed="true"]');
-  while (!run.lines.includes('pause')) await page.waitForTimeout(20);   // no tick after this line
+  await eventually(() => run.lines.includes('pause'));   // no tick after this line
   const halted = JSON.parse((await ask(run.port, '/live/frames?from=0')).text).frames.count;
   await until(page, (count) => waymark.drive.count === count, halted);
   await page.waitForTimeout(1000);
