@@ -103,7 +103,8 @@ void print_roads(const Model& model, const model::Map& map, const Canvas& canvas
     const auto by = field<model::Member>(model, road.row, "by");
     const std::string style = fmt::format("style={}, dir={}", by ? kLines[by->index % kLines.size()] : kLines[0],
                                           directions.size() > 1 ? "none" : "forward");
-    print_chain(chain, style, fmt::format(", taillabel={}", dot_string(exit)),
+    const std::string limit = road.limit_m_per_s > 0.0f ? fmt::format(", label={}", dot_string(fmt::format("{} m/s", road.limit_m_per_s))) : "";
+    print_chain(chain, style, fmt::format(", taillabel={}{}", dot_string(exit), limit),
                 fmt::format(", headlabel={}", dot_string(approach)), out);
   }
 }

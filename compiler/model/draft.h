@@ -40,6 +40,7 @@ struct DirectedRoad {
   std::string_view exit_name;
   std::uint32_t exit = kNone32, approach = kNone32;   ///< members of `Draft::exits`
   std::uint32_t by = kNone32;            ///< a member of `Draft::methods`
+  float limit_m_per_s = 0.0f;            ///< see MapRoad
 };
 
 /// A fact with a threshold of its own, and where it stands.

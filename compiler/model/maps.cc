@@ -11,6 +11,9 @@
 #include <utility>
 
 #include "compiler/model/draft.h"
+#include "compiler/model/shapes.h"
+#include "compiler/model/units.h"
+#include "compiler/syntax/tree_text.h"
 
 namespace kb::model {
 namespace {
@@ -205,12 +208,25 @@ class MapReader {
     }
     take_arm(*from, exit, from_name, exit_name);
     take_arm(*to, approach, to_name, approach_name);
+    const float limit_m_per_s = limit_of(road);
     const auto id = next_road_id();
-    add({id, RowId::kNone, *from, *to, exit_name.text, exit, approach, by}, approach_name.text, road.span);
+    add({id, RowId::kNone, *from, *to, exit_name.text, exit, approach, by, limit_m_per_s}, approach_name.text, road.span);
     bend(road.through.begin(), road.through.end());
     if (!road.both_ways) return;
-    add({id, RowId::kNone, *to, *from, approach_name.text, approach, exit, by}, exit_name.text, road.span);
+    add({id, RowId::kNone, *to, *from, approach_name.text, approach, exit, by, limit_m_per_s}, exit_name.text, road.span);
     bend(road.through.rbegin(), road.through.rend());
+  }
+
+  /// 0 if it has none, or what it has is none (reported).
+  float limit_of(const syntax::Road& road) {
+    if (road.limit == 0) return 0.0f;
+    const syntax::Number& number = map_.limits[road.limit - 1];
+    const auto speed = to_si(number, draft_.diagnostics);
+    if (!speed || !in_reach(number, speed->value, draft_.diagnostics)) return 0.0f;
+    const auto limit = static_cast<float>(speed->value);
+    if (speed->unit == "m/s" && limit > 0.0f) return limit;
+    draft_.diagnostics.report(Kind::kSpeedLimit, number.span, {syntax::number_text(number)});
+    return 0.0f;
   }
 
   [[nodiscard]] syntax::Name name(source::Span span) const { return {span, draft_.diagnostics.sources().text(span)}; }
@@ -249,7 +265,7 @@ class MapReader {
     set(road.row, fields_.by, draft_.value(draft_.methods, road.by));
     draft_.landmarks[road.from].out.push_back(static_cast<std::uint32_t>(draft_.roads.size()));
     ++draft_.landmarks[road.to].in;
-    draft_.model.maps[map_id_].roads.push_back({road.road, road.row, 0, 0});
+    draft_.model.maps[map_id_].roads.push_back({road.road, road.row, 0, 0, road.limit_m_per_s});
     draft_.roads.push_back(road);
   }
 

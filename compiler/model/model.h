@@ -154,6 +154,7 @@ struct MapRoad {
   std::uint32_t road = 0;
   RowId row = RowId::kNone;
   std::uint32_t first_bend = 0, bends = 0;   ///< in `Map::bends`: see `Map::through`
+  float limit_m_per_s = 0.0f;   ///< the fastest that it may be driven; 0: as fast as its controller drives
 };
 struct Map {
   std::string name;
@@ -164,6 +165,12 @@ struct Map {
 
   /// The places that the road goes through, in its direction.
   [[nodiscard]] std::span<const Point> through(const MapRoad& road) const { return std::span(bends).subspan(road.first_bend, road.bends); }
+};
+
+/// A leg whose road has a limit, by its satellite.
+struct LegLimit {
+  CellId leg = CellId::kNone;
+  float limit_m_per_s = 0.0f;
 };
 
 /// A total function over finite sets.
@@ -257,6 +264,7 @@ struct Model {
   std::vector<Control> controls;
   std::vector<Table> tables;
   std::vector<Map> maps;
+  std::vector<LegLimit> leg_limits;
   std::vector<Prototype> prototypes;
   std::vector<Sensor> sensors;
   std::vector<PlacedShape> placed_shapes;

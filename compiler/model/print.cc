@@ -127,7 +127,8 @@ class Printer {
     for (const MapRoad& road : map.roads) {
       std::string through;
       for (const Point& point : map.through(road)) through += fmt::format(" ({}, {})", point.x, point.y);
-      line("road {} {}{}{}", road.road, model_[road.row].name, through.empty() ? "" : " through", through);
+      const std::string limit = road.limit_m_per_s > 0.0f ? fmt::format(" at most {} m/s", road.limit_m_per_s) : "";
+      line("road {} {}{}{}{}", road.road, model_[road.row].name, limit, through.empty() ? "" : " through", through);
     }
   }
 

@@ -244,10 +244,16 @@ std::uint32_t add_leg(Draft& draft, std::uint32_t route, std::string name, std::
   set_field(draft, leg.row, "approach", draft.value(draft.exits, along.approach));
   set_field(draft, leg.row, "by", draft.value(draft.methods, along.by));
   set_field(draft, leg.row, "road", along.row);
+  limit_leg(draft, leg.row, along);
   const auto id = static_cast<std::uint32_t>(draft.legs.size());
   draft.legs.push_back(leg);
   draft.legs_from[along.from].push_back(id);
   return id;
+}
+
+void limit_leg(Draft& draft, RowId leg, const DirectedRoad& road) {
+  const CellId cell = draft.model[leg].cell;
+  if (cell != CellId::kNone && road.limit_m_per_s > 0.0f) draft.model.leg_limits.push_back({cell, road.limit_m_per_s});
 }
 
 void link_legs(Draft& draft, std::uint32_t leg, std::uint32_t next) {

@@ -303,7 +303,7 @@ Formatter::Slot Formatter::slot() const {
     case Family::kLandmark: return kind == T::kAt ? Slot{1, 1} : Slot{0, 0};
     case Family::kRoad:
       if (kind == T::kTwoWay || kind == T::kArrow) return {1, 1};
-      return kind == T::kBy ? Slot{2, 2} : kind == T::kThrough ? Slot{3, 2} : Slot{0, 0};
+      return kind == T::kBy ? Slot{2, 2} : kind == T::kAt ? Slot{3, 2} : kind == T::kThrough ? Slot{4, 2} : Slot{0, 0};
     case Family::kTable:
       if (kind != T::kIdentifier) break;
       return {static_cast<std::uint16_t>(lines_.back().cells.back().slot + 1), 2};

@@ -268,6 +268,8 @@ TokenKind Preparation::kind_of_name() const {
   if (kind(1) == TokenKind::kColon && statement_ == TokenKind::kTable && bracket() == TokenKind::kLeftBrace) {
     return TokenKind::kLabel;
   }
+  const bool in_map = statement_ == TokenKind::kMap && bracket() == TokenKind::kLeftBrace;
+  if (in_map && last() == TokenKind::kAt && sources_.text(token_.span) == "most") return TokenKind::kMost;
   if (ends_a_declaration() && sources_.text(token_.span) == "output") return TokenKind::kOutput;
   const bool extends = last() == TokenKind::kIdentifier && open_.empty() &&
                        (last(1) == TokenKind::kNames || last(1) == TokenKind::kTable);

@@ -60,7 +60,7 @@ class Printer {
   void print(const Sensor& node);
   void print(const Perceive& node);
   void print(const Fuzzy& node);
-  void print(const Road& road);
+  void print(const Road& road, const Map& map);
   void print(const Effect& effect);
   void print_stops(const std::vector<Stop>& stops);
   [[nodiscard]] std::string members(const Declaration::Item& item) const;
@@ -154,13 +154,14 @@ void Printer::print(const Map& node) {
       line(1, "landmark {}", landmark.name.text);
     }
   }
-  for (const Road& road : node.roads) print(road);
+  for (const Road& road : node.roads) print(road, node);
 }
 
-void Printer::print(const Road& road) {
+void Printer::print(const Road& road, const Map& map) {
   std::string text = fmt::format("road {}.{} {} {}.{}", sources_.text(road.from), sources_.text(road.exit), road.both_ways ? "--" : "->",
                                  sources_.text(road.to), sources_.text(road.approach));
   if (road.by.known()) text += fmt::format(" by {}", sources_.text(road.by));
+  if (road.limit != 0) text += fmt::format(" at most {}", number_text(map.limits[road.limit - 1]));
   for (std::size_t i = 0; i < road.through.size(); ++i) {
     text += fmt::format("{}({}, {})", i == 0 ? " through " : ", ", road.through[i].x, road.through[i].y);
   }

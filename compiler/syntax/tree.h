@@ -181,9 +181,10 @@ struct Road {
   source::Span from, exit, to, approach;
   source::Span by;                   ///< unknown if it has none
   bool both_ways = true;             ///< `--`, else `->`
+  std::uint32_t limit = 0;           ///< `at most`: the number of its speed in `Map::limits`, from 1; 0: none
   std::vector<Point> through;
 };
-struct Map { Name name; std::vector<Landmark> landmarks; std::vector<Road> roads; };
+struct Map { Name name; std::vector<Landmark> landmarks; std::vector<Road> roads; std::vector<Number> limits; };
 
 struct Stop { Name landmark; std::optional<Name> exit; };  ///< `LM5` or `LM5.W`
 struct Route { Name name, map, command; std::vector<Stop> stops; };

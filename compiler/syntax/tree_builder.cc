@@ -194,6 +194,12 @@ void TreeBuilder::road_by(Span clause, Span method) {
   road_.by = method;
 }
 
+void TreeBuilder::road_limit(Span clause, Id number) {
+  if (road_.limit != 0) diagnostics_.report(Kind::kClauseTwice, clause, {"at most"});
+  map_.limits.push_back(numbers_[number]);
+  road_.limit = static_cast<std::uint32_t>(map_.limits.size());
+}
+
 void TreeBuilder::end_road(Span span) {
   road_.span = span;
   map_.roads.push_back(std::move(road_));

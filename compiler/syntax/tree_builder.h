@@ -74,6 +74,7 @@ class TreeBuilder {
   void add_landmark(Span span, Span name, Id at = kNothing);
   void begin_road(Span from, Span exit, Id both_ways, Span to, Span approach);
   void road_by(Span clause, Span method);
+  void road_limit(Span clause, Id number);
   void road_through(Id at) { road_.through.push_back(points_[at]); }
   void end_road(Span span);
   void abandon_map_item() { road_ = Road{}; }

@@ -31,6 +31,7 @@ void add_road(const Model& model, const model::Map& map, const model::MapRoad& r
   if (two_way && to < from) return;
   std::string text = fmt::format("road {} {} {}", from, two_way ? "--" : "->", to);
   if (const std::string_view method = model.member_in(row, "by"); !method.empty()) text += fmt::format(" by {}", method);
+  if (road.limit_m_per_s > 0.0f) text += fmt::format(" at most {} m/s", road.limit_m_per_s);
   const char* before = " through ";
   for (const model::Point& bend : map.through(road)) text += std::exchange(before, ", ") + point(bend);
   std::vector<std::string> ends;
