@@ -18,7 +18,7 @@ mts::Motion Driver::hear(const mts::Senses& senses, const TagHeard& tag, float p
   perception_.hear(steady_, memories_.of(tag), dt_s, measured);
   const mts::Motion wanted = pilot_.step(steady_, dt_s);
   perception_.tell(pilot_.plight(), pilot_.lost());
-  return as_.out(wanted);
+  return slowed(as_.out(wanted), perception_.limit_m_s(knowledge_->limits));
 }
 
 void Driver::take(const Knowledge& next) {

@@ -34,7 +34,7 @@ class Driver {
   Driver(const Knowledge& knowledge, const mts::Body& body)
       : knowledge_(&knowledge), as_(body.size), memories_(static_cast<double>(body.size)), perception_(knowledge.facts, as_.in(body)), pilot_(knowledge, body), mind_(knowledge) {}
 
-  /// One control period: takes the senses as read, returns the motion for the wheels. `measured`: see Perception::hear.
+  /// One control period: takes the senses as read, returns the motion for the wheels, within the limit of the road. `measured`: see Perception::hear.
   [[nodiscard]] mts::Motion hear(const mts::Senses& senses, const TagHeard& tag, float period_s, bool measured = false);
   /// Another knowledge base between two ticks: see Mind::take. It must outlive the driver, and so must the first one; those between need not.
   void take(const Knowledge& next);

@@ -275,6 +275,7 @@ std::optional<Knowledge> prepare(const model::Model& model, const program::Progr
   out.tables = &tables;
   find_facts(model, program, out.facts);
   find_plans(model, out);
+  out.limits = limits_of(model);
   bool good = stubs == nullptr || check_stubs(program, *stubs, diagnostics);
   std::set<std::string> unknown;
   for (std::size_t i = program.cells.size() - program.strategies; i < program.cells.size(); ++i) {

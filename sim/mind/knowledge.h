@@ -15,6 +15,7 @@
 #include "compiler/tables/image.h"
 #include "compiler/tables/perception.h"
 #include "compiler/tables/tables.h"
+#include "sim/mind/speed_limits.h"
 
 namespace kb::sim {
 
@@ -82,6 +83,7 @@ struct Knowledge {
   std::vector<Leg> legs;
   std::vector<program::CellId> routes, reports, outputs;   ///< satellites of routes; `Help.*`; those declared `output`
   std::vector<Mission> missions;      ///< of the routes
+  SpeedLimits limits;                 ///< of the roads
   std::vector<SensorFeed> feeds;
   std::optional<tables::PerceptionForm> perception;   ///< if the knowledge base perceives anything itself
 

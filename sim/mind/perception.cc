@@ -265,6 +265,20 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
   return task;
 }
 
+/// The exit by which the robot leaves a crossing, or has just left it, in its memory; kNoExit if it does neither or does not know.
+std::uint32_t Perception::leaves_by() const {
+  if (memory_ == nullptr) return kNoExit;
+  return phase_ == Phase::kInside ? exit_ : phase_ == Phase::kLeaving ? arm_ : kNoExit;
+}
+
+float Perception::limit_m_s(const SpeedLimits& limits) const {
+  const bool before_sign = memory_ != nullptr && (phase_ == Phase::kApproach || phase_ == Phase::kInside);
+  if (!road_.known() && !before_sign) return limits.lowest();
+  const float came_m_s = limits.at(road_.known() ? road_.entered() : RoadEnd{memory_->landmark, memory_->exits[arm_].name});
+  const std::uint32_t exit = leaves_by();
+  return exit == kNoExit ? came_m_s : std::min(came_m_s, limits.at({memory_->landmark, memory_->exits[exit].name}));
+}
+
 void Perception::write_landmark(std::span<float> facts) const {
   const bool turned_away = road_.turned_back() && phase_ == Phase::kLeaving;   // from a sign that could not be read or was wrong
   const bool set_down_beside = set_down_ && phase_ == Phase::kLeaving;   // facing away from the sign: it neither arrives there nor has crossed there
@@ -298,7 +312,7 @@ void Perception::write_memory(std::span<float> facts) const {
       put(facts, by.fact, serves ? kSure : -kSure);
     }
   }
-  const std::uint32_t exit = phase_ == Phase::kInside ? exit_ : phase_ == Phase::kLeaving ? arm_ : kNoExit;
+  const std::uint32_t exit = leaves_by();
   if (exit == kNoExit) return;
   const std::string_view method = road_.turned_back() && phase_ == Phase::kLeaving ? road_.method() : memory_->exits[exit].method;
   for (const NamedFact& by : cells_->move_by) put(facts, by.fact, by.name == method ? kSure : -kSure);

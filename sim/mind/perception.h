@@ -67,6 +67,8 @@ class Perception {
   [[nodiscard]] bool in_crossing() const { return phase_ == Phase::kInside; }
   /// Where it is on that road; nothing in a crossing, or if the road is unknown.
   [[nodiscard]] std::optional<MapPlace> on_road() const { return in_crossing() ? std::nullopt : road_.where(reckoning_.at); }
+  /// How fast it may drive where it is, m/s: see note [where a limit holds]. Infinity if there is no limit.
+  [[nodiscard]] float limit_m_s(const SpeedLimits& limits) const;
   /// Writes the facts of a tick. Anything seen since the last tick counts, however briefly.
   void write(std::span<float> facts);
   /// For the sensors `tag` and `memory` of a knowledge base: the landmark's name, and `cross mark`, `move dist`; null: nothing.
@@ -97,6 +99,7 @@ class Perception {
   void enter(const Strategy& strategy, bool resumes);
   void set_out();
   [[nodiscard]] std::uint32_t exit_for(const Strategy& strategy) const;
+  [[nodiscard]] std::uint32_t leaves_by() const;
   [[nodiscard]] float obstacle_at() const;
   [[nodiscard]] float obstacle_certainty() const;
   [[nodiscard]] bool on_track() const;

@@ -16,6 +16,7 @@
 #include <waymark/controllers/body.h>
 #include <waymark/controllers/reckoning.h>
 #include <waymark/controllers/senses.h>
+#include "sim/mind/speed_limits.h"
 #include "sim/robot/sensors.h"
 #include "sim/world/geometry.h"
 
@@ -57,6 +58,8 @@ class RoadAhead {
   /// What the landmark's memory says of it; null if nothing is known.
   [[nodiscard]] const Memory::Exit* exit() const { return known() ? &memory_->exits[exit_] : nullptr; }
   [[nodiscard]] const HallMap* hall() const { return known() ? memory_->exits[exit_].hall.get() : nullptr; }
+  /// The end by which it was entered; it must be known.
+  [[nodiscard]] RoadEnd entered() const { return {entered_->landmark, entered_->exits[entered_by_].name}; }
   /// Whether it begins at this landmark.
   [[nodiscard]] bool leaves(const std::string& landmark) const { return known() && memory_->landmark == landmark; }
   /// `mark`, `dist`, ...; empty if nothing is known.

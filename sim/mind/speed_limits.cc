@@ -1,0 +1,47 @@
+#include "sim/mind/speed_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace kb::sim {
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::infinity();
+
+}  // namespace
+
+void SpeedLimits::add(const RoadEnd& end, float limit_m_s) {
+  float& known = by_landmark_[std::string(end.landmark)].try_emplace(std::string(end.side), kNone).first->second;
+  known = std::min(known, limit_m_s);
+  lowest_ = std::min(lowest_, limit_m_s);
+}
+
+float SpeedLimits::at(const RoadEnd& end) const {
+  const auto landmark = by_landmark_.find(end.landmark);
+  if (landmark == by_landmark_.end()) return kNone;
+  const auto side = landmark->second.find(end.side);
+  return side == landmark->second.end() ? kNone : side->second;
+}
+
+SpeedLimits limits_of(const model::Model& model) {
+  SpeedLimits limits;
+  for (const model::Map& map : model.maps) {
+    for (const model::MapRoad& road : map.roads) {
+      if (road.limit_m_per_s <= 0.0f) continue;
+      const model::Row& row = model[road.row];
+      limits.add({model.row_in(row, "from")->name, model.member_in(row, "exit")}, road.limit_m_per_s);
+      limits.add({model.row_in(row, "to")->name, model.member_in(row, "approach")}, road.limit_m_per_s);
+    }
+  }
+  return limits;
+}
+
+mts::Motion slowed(const mts::Motion& wanted, float limit_m_s) {
+  const float speed_m_s = std::abs(wanted.speed_m_s);
+  if (!(speed_m_s > limit_m_s)) return wanted;
+  const float share = limit_m_s / speed_m_s;
+  return {share * wanted.speed_m_s, share * wanted.turn_rad_s};
+}
+
+}  // namespace kb::sim
