@@ -125,6 +125,7 @@ std::string header_body(const CppInput& in) {
   if (has_perception(in)) emit_readings(in, h);
   emit_fuzzy(in, h);
   emit_controllers(in, h);
+  emit_limits(in, h);
   return h;
 }
 
@@ -156,7 +157,8 @@ Cpp cpp(const program::Program& program, const tables::Tables& tables, const Cpp
   Cpp cpp;
   std::string& h = cpp.header;
   h += kGenerated;
-  h += "#pragma once\n\n#include <cstdint>\n\n";
+  h += "#pragma once\n\n#include <cstdint>\n";
+  h += program.limits.empty() ? "\n" : "#include <limits>\n\n";
   if (!program.fuzzy.empty()) h += "#include <waymark/runtime/fuzzy_straight.h>\n";
   h += options.compact ? "#include <waymark/runtime/compact_mind.h>\n" : "#include <waymark/runtime/mind.h>\n";
   h += has_perception(in) ? "#include <waymark/runtime/perception.h>\n\n" : "\n";

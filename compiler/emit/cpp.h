@@ -54,6 +54,7 @@ void emit_numbers(std::string& out, std::string_view type, std::string_view name
 
 void emit_facts(const CppInput& in, std::string& out);
 void emit_controllers(const CppInput& in, std::string& out);
+void emit_limits(const CppInput& in, std::string& out);
 /// The class of each fuzzy controller, and what it computes: the tables and, where it is faster, straight C++.
 void emit_fuzzy(const CppInput& in, std::string& out);
 void emit_fuzzy_code(const CppInput& in, std::string& out);

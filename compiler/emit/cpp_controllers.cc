@@ -1,4 +1,5 @@
 // Controllers, which drive the robot while a strategy runs. The user's program binds them by type, so a forgotten one does not compile.
+// And how fast they may drive.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -191,6 +192,30 @@ void emit_controllers(const CppInput& in, std::string& out) {
   out += "  if (!decision.drives()) {\n    controllers.idle();\n    return;\n  }\n  switch (decision.strategy()) {\n";
   emit_cases(in, controllers, of, out);
   out += "    default: break;\n  }\n}\n\n";   // never taken; -Wswitch-default demands it
+}
+
+void emit_limits(const CppInput& in, std::string& out) {
+  if (in.program.limits.empty()) return;
+  out +=
+      "/// How fast the robot may drive on its present leg, m/s, by the map (`at most`); infinity if the road has no limit.\n"
+      "[[nodiscard]] inline float speed_limit_m_per_s(const Mind& mind) {\n"
+      "  struct Limit {\n"
+      "    Satellite leg;\n"
+      "    float m_per_s;\n"
+      "  };\n"
+      "  static constexpr Limit kLimits[] = {\n";
+  for (const program::LegLimit& limit : in.program.limits) {
+    const std::string& leg = in.names.satellites[program::index(limit.leg) - in.program.facts];
+    fmt::format_to(Out(out), "      {{Satellite::{}, {}}},  // {}\n", leg, float_literal(limit.limit_m_per_s), in.program[limit.leg].name);
+  }
+  out +=
+      "  };\n"
+      "  float lowest = std::numeric_limits<float>::infinity();\n"
+      "  for (const Limit& limit : kLimits) {\n"
+      "    if (limit.m_per_s < lowest && mind.high(limit.leg)) lowest = limit.m_per_s;\n"
+      "  }\n"
+      "  return lowest;\n"
+      "}\n\n";
 }
 
 }  // namespace kb::emit

@@ -201,7 +201,7 @@ std::string unit_suffix(std::string_view unit) {
 Scope type_scope() {
   return Scope{"Atom", "Controllers", "Decision", "Fact", "Facts", "Fleet", "Index", "Inputs", "Knowledge", "Mind", "Outputs",
                "Perception", "Readings", "Rule", "Run", "Satellite", "Senses", "Strategy", "drive", "evaluate", "evaluate_tables",
-               "name"};
+               "name", "speed_limit_m_per_s"};
 }
 
 std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {

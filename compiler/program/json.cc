@@ -24,6 +24,7 @@ class Printer {
     print_names(program_.priority);
     print_list("rules", program_.rules, [this](const Rule& rule) { print_rule(rule); });
     print_list("controls", program_.controls, [this](const Control& control) { print_control(control); });
+    if (!program_.limits.empty()) print_list("limits", program_.limits, [this](const LegLimit& limit) { print_limit(limit); });
     append_perception_json(out_, program_);
     append_fuzzy_json(out_, program_);
     out_ += "}\n";
@@ -171,6 +172,14 @@ class Printer {
     out_ += ",\"at\":";
     append_json(out_, program_.at(rule));
     out_ += '}';
+  }
+
+  void print_limit(const LegLimit& limit) {
+    out_ += '[';
+    name(limit.leg);
+    out_ += ',';
+    append_number(out_, limit.limit_m_per_s);
+    out_ += ']';
   }
 
   void print_control(const Control& control) {

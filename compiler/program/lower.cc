@@ -48,6 +48,7 @@ class Lowering {
     lower_rules();
     append_control_rules(program_, pool_);
     for (const model::Control& control : model_.controls) lower_control(control);
+    for (const model::LegLimit& limit : model_.leg_limits) program_.limits.push_back({cell(limit.leg), limit.limit_m_per_s});
     program_.perception = lower_perception(model_, cell_of_);
     program_.fuzzy = model_.fuzzy;
     return std::move(program_);

@@ -116,6 +116,12 @@ struct Control {
   source::Span controller_span;
 };
 
+/// How fast the robot may drive while the satellite of a leg is high.
+struct LegLimit {
+  CellId leg = CellId::kNone;
+  float limit_m_per_s = 0.0f;
+};
+
 struct Program {
   std::shared_ptr<source::Texts> texts = std::make_shared<source::Texts>();   ///< names of cells and rules; in a lowered program, those of the model
   Settings settings;
@@ -129,6 +135,7 @@ struct Program {
   std::vector<Rule> rules;  ///< ordered by level, within a level as declared; the generated `run[...]` last
   std::vector<std::string> places;  ///< source places of rules, each once: "file:line:col"; "priority" for generated ones
   std::vector<Control> controls;
+  std::vector<LegLimit> limits;           ///< of the legs whose road has one
   Perception perception;
   std::vector<fuzzy::Controller> fuzzy;   ///< in order of declaration
 

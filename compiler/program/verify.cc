@@ -28,6 +28,9 @@ class Verifier {
       if (!is(control.strategy, CellKind::kStrategy))
         fault("a control line drives no strategy: `{}`", control.controller);
     }
+    for (const LegLimit& limit : program_.limits) {
+      if (!is(limit.leg, CellKind::kSatellite) || !(limit.limit_m_per_s > 0.0f)) fault("a speed limit of {} m/s belongs to no leg", limit.limit_m_per_s);
+    }
     return std::move(faults_);
   }
 
