@@ -96,6 +96,9 @@ std::unique_ptr<OrderMission> OrderMissions::make(const vda5050::Task& task) con
   if (!knowledge || mission->image == nullptr) return nullptr;
   mission->knowledge = std::move(*knowledge);
   mission->knowledge.image = mission->image.get();
+  for (const vda5050::Visit& visit : task.way) {
+    if (visit.limit_m_s > 0.0) mission->knowledge.limits.add({visit.landmark, visit.exit}, static_cast<float>(visit.limit_m_s));
+  }
   return mission;
 }
 

@@ -86,11 +86,28 @@ TEST_F(Orders, WhatTheVehicleCannotDoIsRefused) {
 
 TEST_F(Orders, WhatTheVehicleDoesNotHeedIsTold) {
   Json json = order("A", 0, {"n1", "n2"});
-  json["edges"][0]["maxSpeed"] = 0.3;
+  json["edges"][0]["maxHeight"] = 2.0;
   json["edges"][0]["trajectory"] = nullptr;   // as masters of version 2.0 say that there is none
   say("order", json);
   EXPECT_EQ(errors(), "");
-  EXPECT_NE(state["information"].dump().find("edges.maxSpeed of the order is not heeded"), std::string::npos);
+  EXPECT_NE(state["information"].dump().find("edges.maxHeight of the order is not heeded"), std::string::npos);
+}
+
+TEST_F(Orders, AnEdgeSaysHowFastItsRoadsMayBeDriven) {
+  Json json = order("A", 0, {"n1", "n2", "n3"});
+  json["edges"][0]["maxSpeed"] = 0.0;
+  refuses(json, "validationError", "edges[0].maxSpeed is 0.0, and at that speed nobody arrives");
+  json["edges"][0]["maxSpeed"] = "slow";
+  refuses(json, "validationError", "edges[0].maxSpeed is a string, not a number");
+  json["edges"][0]["maxSpeed"] = 0.3;
+  json["edges"][1]["maxSpeed"] = nullptr;
+  say("order", json);
+  EXPECT_EQ(errors(), "");
+  EXPECT_EQ(state["information"].dump().find("not heeded"), std::string::npos);
+  const std::vector<Visit>& way = vehicle.task().way;
+  ASSERT_GE(way.size(), 3u);
+  EXPECT_EQ(way[0].limit_m_s, 0.3);
+  EXPECT_EQ(way[1].limit_m_s, 0.0);
 }
 
 TEST_F(Orders, NodesAndEdgesHaveToBeKnown) {

@@ -43,6 +43,7 @@ struct Edge {
   bool released = false;
   std::string from, to;            ///< nodes
   std::vector<Action> actions;
+  double limit_m_s = 0.0;          ///< `maxSpeed`; 0: it has none
   std::vector<Visit> way = {};     ///< as found by Plant::way
   friend bool operator==(const Edge&, const Edge&) = default;
 };
@@ -53,7 +54,7 @@ struct Order {
   std::uint32_t update = 0;
   std::vector<Node> nodes;
   std::vector<Edge> edges;
-  std::vector<std::string> unused = {};   ///< fields on how to drive that are ignored: `edges.maxSpeed`; each once
+  std::vector<std::string> unused = {};   ///< fields on how to drive that are ignored: `edges.maxHeight`; each once
 };
 
 /// An error as in `state` (6.10.6). `references`: what it is about (7.1).

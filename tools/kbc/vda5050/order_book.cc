@@ -28,6 +28,7 @@ std::optional<OrderBook::Judgement> locate(Order& order, const Plant& plant) {
     std::optional<std::vector<Visit>> way = plant.way(edge.id, edge.from, edge.to);
     if (!way) return refuse(order, "noRouteError", fmt::format("there is no edge `{}` from `{}` to `{}`", edge.id, edge.from, edge.to), {{"edgeId", edge.id}});
     edge.way = std::move(*way);
+    for (Visit& visit : edge.way) visit.limit_m_s = edge.limit_m_s;
   }
   return std::nullopt;
 }
@@ -35,7 +36,7 @@ std::optional<OrderBook::Judgement> locate(Order& order, const Plant& plant) {
 }  // namespace
 
 bool leads_on(const Node& first, const Edge* then, const Whereabouts& on) {
-  return first.actions.empty() && (then == nullptr || (on.outwards && !then->way.empty() && then->way.front() == on.road));
+  return first.actions.empty() && (then == nullptr || (on.outwards && !then->way.empty() && then->way.front().is_on(on.road)));
 }
 
 OrderBook::Judgement OrderBook::judge(Order& order, const Plant& plant, bool busy, std::string_view here, const Whereabouts* on) const {

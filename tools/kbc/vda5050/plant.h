@@ -12,6 +12,9 @@ namespace kb::vda5050 {
 struct Visit {
   std::string landmark;
   std::string exit = {};   ///< `E`; empty at the end of a way, and if only one road leads to the next
+  double limit_m_s = 0.0;  ///< how fast an order lets it drive that road; 0: as fast as the road allows
+
+  [[nodiscard]] bool is_on(const Visit& road) const { return landmark == road.landmark && exit == road.exit; }
   friend bool operator==(const Visit&, const Visit&) = default;
 };
 

@@ -81,6 +81,14 @@ class Reader {
     wrong(fmt::format("{}{} is {}, not a whole number from 0 to 4294967295", where, key, clipped(value->text)));
     return 0;
   }
+  /// 0 if it is not there.
+  [[nodiscard]] double speed(const Json& object, const char* key, std::string_view where) {
+    if (object.find(key) == nullptr) return 0.0;
+    const Json* value = need(object, key, where, Json::Kind::kNumber);
+    if (value == nullptr || value->number > 0.0) return value != nullptr ? value->number : 0.0;
+    wrong(fmt::format("{}{} is {}, and at that speed nobody arrives", where, key, clipped(value->text)));
+    return 0.0;
+  }
   [[nodiscard]] bool truth(const Json& object, const char* key, std::string_view where) {
     const Json* value = need(object, key, where, Json::Kind::kBool);
     return value != nullptr && value->text == "true";
@@ -172,7 +180,8 @@ Node read_node(Reader& reader, const Json& json, const std::string& where) {
 
 Edge read_edge(Reader& reader, const Json& json, const std::string& where) {
   Edge edge{reader.name(json, "edgeId", where), reader.count(json, "sequenceId", where), reader.truth(json, "released", where),
-            reader.name(json, "startNodeId", where), reader.name(json, "endNodeId", where), read_actions(reader, json, "actions", where, kMostActions)};
+            reader.name(json, "startNodeId", where), reader.name(json, "endNodeId", where), read_actions(reader, json, "actions", where, kMostActions),
+            reader.speed(json, "maxSpeed", where)};
   // 6.6.4.2: a vehicle that follows lines refuses trajectories.
   if (json.find("trajectory") != nullptr) reader.wrong(where + "trajectory: this vehicle follows its own lines", {{"edgeId", edge.id}}, "orderError");
   for (const Action& action : edge.actions) {
@@ -241,7 +250,7 @@ std::variant<Order, Complaint> read_order(std::string_view payload, const Identi
   if (!reader.failed()) check_actions(reader, order);
   if (reader.failed()) return reader.complaint();
   if (root->find("zoneSetId") != nullptr) order.unused.emplace_back("zoneSetId");
-  note_unused(*root->find("edges"), "edges", {"maxSpeed", "maxHeight", "minHeight", "orientation", "direction", "rotationAllowed", "maxRotationSpeed", "corridor"}, order.unused);
+  note_unused(*root->find("edges"), "edges", {"maxHeight", "minHeight", "orientation", "direction", "rotationAllowed", "maxRotationSpeed", "corridor"}, order.unused);
   return order;
 }
 

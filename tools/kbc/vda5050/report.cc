@@ -155,7 +155,7 @@ void Vehicle::State::send_factsheet(std::int64_t utc_us) {
   Out able = Out::array();
   for (const std::string_view type : kOwnActions) able.push_back(agv_action(type, Out::array({"INSTANT"})));
   for (const Skill& skill : actions.skills()) able.push_back(agv_action(skill.type, Out::array({"INSTANT", "NODE", "EDGE"})));
-  out["protocolFeatures"] = {{"optionalParameters", Out::array()}, {"agvActions", std::move(able)}};
+  out["protocolFeatures"] = {{"optionalParameters", Out::array({{{"parameter", "order.edges.maxSpeed"}, {"support", "SUPPORTED"}}})}, {"agvActions", std::move(able)}};
   out["agvGeometry"] = Out::object();
   out["loadSpecification"] = Out::object();
   send({"factsheet", text_of(out), true});
