@@ -59,6 +59,7 @@ std::optional<std::string> import_layout(const ImportOptions& options, Inputs& i
   else if (!options.stops.empty()) mission = layout::mission_by_stops(*map, options.stops, diagnostics);
   adaptations.report(diagnostics);
   if (diagnostics.failed()) return std::nullopt;
+  if (mission) layout::take_limits(*mission, *map);
   if (options.trim) std::tie(*map, *mission) = layout::trimmed(*map, *mission);
   const layout::Wording wording = wording_of(options, in.sources.path(in.file));
   return layout::write_map(*map, wording) + (mission ? layout::write_mission(*mission, *map, wording) : "");

@@ -34,6 +34,12 @@ struct Point {
 };
 inline double distance(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
 
+/// A speed limit as read; 0, no limit, if nothing on wheels is faster.
+inline double limit_of(double m_s) { return m_s < 1000.0 ? m_s : 0.0; }
+
+/// The lower one of two limits, of which 0 is none.
+inline double lower_limit(double a, double b) { return a == 0.0 || (b > 0.0 && b < a) ? b : a; }
+
 struct Place {
   std::string id;         ///< as the file calls it
   std::string called;     ///< a name for people, if it has one
@@ -50,6 +56,7 @@ struct Way {
   std::vector<Point> through;     ///< its bends, without its ends
   bool marked = false;            ///< there is a line on the floor, whatever method the user gives for all roads
   source::Span from_span, to_span;
+  double limit_m_s = 0.0;         ///< the fastest that it may be driven; 0: no limit
   bool goes_on = false;           ///< the next way in Layout::ways continues it (joined)
 };
 
@@ -121,6 +128,7 @@ struct Road {
   std::vector<Point> through;
   bool marked = false;
   std::uint32_t exit = 0, approach = 0;   ///< indexes of kSides: where it leaves `from`, and where it reaches `to`
+  double limit_m_s = 0.0;             ///< the lowest of its ways; 0: no limit
 
   /// The side by which it leaves place `a` for place `b`; nothing if it does not lead there.
   [[nodiscard]] std::optional<std::uint32_t> leads(std::uint32_t a, std::uint32_t b) const {
@@ -163,6 +171,7 @@ struct Map {
 struct Visit {
   std::uint32_t place = 0;   ///< index of Layout::places
   std::uint32_t exit = 0;    ///< index of kSides: the road by which the robot goes on; meaningless in the last visit
+  double limit_m_s = 0.0;    ///< how fast an order lets it drive that road; 0: as fast as the road allows
 };
 
 struct Mission {
@@ -180,6 +189,9 @@ struct Mission {
 /// released. Nothing if it is no order, or its nodes and edges are not in the layout (reported). O((order + layout) log layout).
 [[nodiscard]] std::optional<Mission> mission_of_order(const source::Sources& sources, source::FileId file, const Map& map,
                                                       Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
+
+/// Gives roads the lower limits that an order sets for them.
+void take_limits(const Mission& mission, Map& map);
 
 /// The part of a map that a mission needs: its landmarks and roads and, if none of these leads to the first landmark, one that does, the
 /// straightest into the mission. Visits are renumbered.

@@ -161,6 +161,7 @@ class LifReader {
       if (choice_.vehicle.empty()) note_other_trajectories(edge, *of_vehicle, id->span);
       if (!may_drive(*of_vehicle, *id)) return;
       note_restrictions(*of_vehicle);
+      if (const Json* speed = of_vehicle->find("maxSpeed")) way.limit_m_s = limit_of(speed->number);
       way.marked = is_marked(edge, *of_vehicle);
       if (const Json* trajectory = of_vehicle->find("trajectory")) {
         way.through = read_trajectory(*trajectory, places.find(way.from), places.find(way.to));
@@ -194,7 +195,7 @@ class LifReader {
 
   // Reports restrictions on who may drive there, and how, that a map cannot express.
   void note_restrictions(const Json& of_vehicle) {
-    for (const std::string_view key : {"maxSpeed", "maxRotationSpeed", "minHeight", "maxHeight", "mobileRobotOrientations"}) {
+    for (const std::string_view key : {"maxRotationSpeed", "minHeight", "maxHeight", "mobileRobotOrientations"}) {
       if (const Json* part = of_vehicle.find(key)) note_left_out(key, *part);
     }
     for (const std::string_view key : {"rotationAllowed", "reentryAllowed"}) {

@@ -94,6 +94,16 @@ std::vector<bool> needed_roads(const std::vector<Road>& roads, const std::vector
 
 }  // namespace
 
+void take_limits(const Mission& mission, Map& map) {
+  for (std::size_t i = 0; i + 1 < mission.visits.size(); ++i) {
+    const Visit &from = mission.visits[i], &to = mission.visits[i + 1];
+    if (from.limit_m_s == 0.0) continue;
+    for (Road& road : map.roads) {
+      if (road.leads(from.place, to.place) == from.exit) road.limit_m_s = lower_limit(road.limit_m_s, from.limit_m_s);
+    }
+  }
+}
+
 std::pair<Map, Mission> trimmed(const Map& map, const Mission& mission) {
   constexpr std::uint32_t kLeftOut = 0xFFFFFFFFu;
   const std::vector<bool> needed = needed_roads(map.roads, mission.visits);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <pugixml.hpp>
@@ -43,6 +44,8 @@ std::string as_utf8(std::string_view bytes, pugi::xml_encoding encoding) {
   }
   return pugi::as_utf8(out);
 }
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 struct Fault {
   std::uint32_t at;   ///< offset in bytes
@@ -101,9 +104,9 @@ class OpentcsReader {
     return number;
   }
 
-  // Whether a path may be driven in the direction that the key gives a speed for: a speed of 0 forbids it.
-  bool has_speed(const pugi::xml_node& path, const char* key, bool unsaid, std::string_view what) {
-    return path.attribute(key) ? number(path, key, what) > 0.0 : unsaid;
+  // How fast a path may be driven in the direction that the key is about, m/s. A speed of 0 forbids it.
+  double speed(const pugi::xml_node& path, const char* key, double unsaid, std::string_view what) {
+    return path.attribute(key) ? number(path, key, what) / 1000.0 : unsaid;
   }
 
   double metres(const pugi::xml_node& node, const char* key, const char* older, std::string_view what) {
@@ -135,7 +138,8 @@ class OpentcsReader {
     const std::string id = path.attribute("name").value(), what = fmt::format("path `{}`", id);
     const source::Span span = span_of(path);
     Way way{id, text(path, "sourcePoint", what), text(path, "destinationPoint", what), {}, false, span, span};
-    const bool ahead = has_speed(path, "maxVelocity", true, what), back = has_speed(path, "maxReverseVelocity", false, what);
+    const double ahead_m_s = speed(path, "maxVelocity", kNoLimit, what), back_m_s = speed(path, "maxReverseVelocity", 0.0, what);
+    const bool ahead = ahead_m_s > 0.0, back = back_m_s > 0.0;
     if (path.attribute("locked").as_bool()) return adaptations_.note("path that is locked: left out", span);
     if (!ahead && !back) return adaptations_.note("path with a speed of 0 in both directions: left out", span);
     way.through = read_bends(path.child("pathLayout"), places.find(way.from), places.find(way.to));
@@ -143,11 +147,13 @@ class OpentcsReader {
       adaptations_.note("path whose ends are drawn elsewhere than they lie: straight", span);
       way.through.clear();
     }
+    way.limit_m_s = limit_of(ahead_m_s);
     if (ahead) layout.ways.push_back(way);
     if (!back) return;
     adaptations_.note(ahead ? "path that is driven back in reverse: a road both ways" : "path that is driven in reverse only: a road against its direction", span);
     std::swap(way.from, way.to);
     std::reverse(way.through.begin(), way.through.end());
+    way.limit_m_s = limit_of(back_m_s);
     layout.ways.push_back(std::move(way));
   }
 

@@ -101,11 +101,18 @@ class RoadMaker {
       if (!lies_on(layout_, road, *from, there)) continue;
       road.both = road.both || road.from != *from;
       road.marked = road.marked || way.marked;
+      limit(road, way);
       return;
     }
     if (known.size() > kSideCount) return;   // more roads than a landmark has sides: that will be reported
     known.push_back(static_cast<std::uint32_t>(roads_.size()));
-    roads_.push_back({*from, *to, false, way.through, way.marked, 0, 0});
+    roads_.push_back({*from, *to, false, way.through, way.marked, 0, 0, way.limit_m_s});
+  }
+
+  void limit(Road& road, const Way& way) {
+    if (road.limit_m_s == way.limit_m_s) return;
+    adaptations_.note("ways on the same ground with different speed limits: the lowest", way.from_span);
+    road.limit_m_s = lower_limit(road.limit_m_s, way.limit_m_s);
   }
 
   std::optional<std::uint32_t> find(const std::string& id, source::Span span) {

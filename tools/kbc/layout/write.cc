@@ -22,6 +22,9 @@ std::string point_text(Point p) {
   return fmt::format("({}, {})", rounded(p.x_m), rounded(p.y_m));
 }
 
+/// Rounded to tenths of a millimetre a second, and not to 0.
+double speed(double m_s) { return std::max(std::round(m_s * 1e4), 1.0) / 1e4; }
+
 /// Whether a text from `worded` can begin the name of a landmark. With `_` behind it, it is no word of the language.
 bool begins_name(const std::string& text) { return !text.empty() && text[0] != '_' && syntax::is_name(text + '_'); }
 
@@ -73,6 +76,7 @@ std::string write_map(const Map& map, const Wording& wording) {
   for (const Road& road : roads) {
     fmt::format_to(to, "road {}.{} {} {}.{} by {}", names[road.from], kSides[road.exit], road.both ? "--" : "->", names[road.to],
                    kSides[road.approach], road.marked ? "mark" : wording.method);
+    if (road.limit_m_s > 0.0) fmt::format_to(to, " at most {} m/s", speed(road.limit_m_s));
     for (std::size_t i = 0; i < road.through.size(); ++i) fmt::format_to(to, "{}{}", i == 0 ? " through " : ", ", point_text(road.through[i]));
     out += '\n';
   }
@@ -83,9 +87,9 @@ std::string write_map(const Map& map, const Wording& wording) {
 std::string write_mission(const Mission& mission, const Map& map, const Wording& wording) {
   std::vector<std::string> stops;
   for (std::size_t i = 0; i < mission.visits.size(); ++i) {
-    const auto [place, exit] = mission.visits[i];
-    const bool choice = i + 1 < mission.visits.size() && roads_between(map.roads, place, mission.visits[i + 1].place) > 1;
-    stops.push_back(choice ? fmt::format("{}.{}", map.names[place], kSides[exit]) : map.names[place]);
+    const Visit& visit = mission.visits[i];
+    const bool choice = i + 1 < mission.visits.size() && roads_between(map.roads, visit.place, mission.visits[i + 1].place) > 1;
+    stops.push_back(choice ? fmt::format("{}.{}", map.names[visit.place], kSides[visit.exit]) : map.names[visit.place]);
   }
   const std::string head = mission.order.empty() ? "" : fmt::format("# {}\n", diagnostics::visible(mission.order));
   return fmt::format("\ncommand Start\n{}route Mission on {} by Start:\n    {}\n{}\n{}", head, wording.map, fmt::join(stops, " -> "),
