@@ -228,24 +228,16 @@ void find_plans(const model::Model& model, Knowledge& out) {
   }
 }
 
-void find_feeds(const program::Program& program, std::vector<SensorFeed>& feeds, Diagnostics& diagnostics) {
+void find_feeds(const program::Program& program, std::vector<SensorFeed>& feeds) {
   struct Known { std::string_view name; SensorFeed::What what; std::uint32_t most; bool text; };
   using What = SensorFeed::What;
   constexpr std::array kKnown{Known{"line", What::kLine, mts::kLineSensors, false}, Known{"range", What::kRange, mts::kRangeFinders, false},
                               Known{"compass", What::kCompass, 1, false}, Known{"tag", What::kTag, 1, true},
                               Known{"memory", What::kMemory, 1, true}, Known{"speed", What::kSpeed, 1, false}};
-  const std::string all = fmt::format("`line[0]` to `line[{}]`, `range[0]` to `range[{}]`, `compass` and `speed`, and of texts `tag` and `memory`",
-                                      mts::kLineSensors - 1, mts::kRangeFinders - 1);
   for (const program::Sensor& sensor : program.perception.sensors) {
-    std::uint32_t has = 0;
     for (const Known& known : kKnown) {
-      if (sensor.name != known.name || sensor.text != known.text) continue;
-      has = std::min(sensor.count, known.most);
-      feeds.push_back({known.what, sensor.first, has});
+      if (sensor.name == known.name && sensor.text == known.text) feeds.push_back({known.what, sensor.first, std::min(sensor.count, known.most)});
     }
-    if (has == sensor.count) continue;
-    const std::string lacking = has == 0 ? fmt::format("sensor `{}`{}", sensor.name, sensor.text ? " of texts" : "") : fmt::format("`{}[{}]`", sensor.name, has);
-    diagnostics.report(Kind::kSimNoSensor, sensor.declared, {lacking, all});
   }
 }
 
@@ -258,6 +250,18 @@ program::CellId Knowledge::find(std::string_view cell) const {
     if (program->cells[i].name == cell) return static_cast<program::CellId>(i);
   }
   return program::CellId::kNone;
+}
+
+void report_lacking_sensors(const Knowledge& knowledge, Diagnostics& diagnostics) {
+  const std::string all = fmt::format("`line[0]` to `line[{}]`, `range[0]` to `range[{}]`, `compass` and `speed`, and of texts `tag` and `memory`",
+                                      mts::kLineSensors - 1, mts::kRangeFinders - 1);
+  for (const program::Sensor& sensor : knowledge.program->perception.sensors) {
+    const auto feed = std::find_if(knowledge.feeds.begin(), knowledge.feeds.end(), [&](const SensorFeed& one) { return one.first == sensor.first; });
+    const std::uint32_t has = feed == knowledge.feeds.end() ? 0 : feed->count;
+    if (has == sensor.count) continue;
+    const std::string lacking = has == 0 ? fmt::format("sensor `{}`{}", sensor.name, sensor.text ? " of texts" : "") : fmt::format("`{}[{}]`", sensor.name, has);
+    diagnostics.report(Kind::kSimNoSensor, sensor.declared, {lacking, all});
+  }
 }
 
 bool can_take(const Knowledge& now, const Knowledge& next) {
@@ -287,7 +291,7 @@ std::optional<Knowledge> prepare(const model::Model& model, const program::Progr
     out.strategies.push_back(std::move(strategy));
   }
   if (!program.perception.empty()) {
-    find_feeds(program, out.feeds, diagnostics);
+    find_feeds(program, out.feeds);
     out.perception = tables::build_perception(program);
   }
   if (!good) return std::nullopt;

@@ -102,4 +102,7 @@ struct Knowledge {
                                                diagnostics::Diagnostics& diagnostics, model::StandardNames* library = nullptr,
                                                const std::vector<std::string>* stubs = nullptr);
 
+/// Warns of sensors, or elements of arrays, that the simulated robot does not have.
+void report_lacking_sensors(const Knowledge& knowledge, diagnostics::Diagnostics& diagnostics);
+
 }  // namespace kb::sim

@@ -31,15 +31,12 @@ void Mind::release(program::CellId fact) {
   std::erase_if(pressed_, [&](const Button& button) { return button.fact == fact; });
 }
 
-void Mind::read_text(const SensorFeed& feed, const std::string* text, std::int64_t now_us) {
-  if (text == nullptr) {
-    readings_.there[feed.first] = 0;
-    return;
-  }
-  const auto& texts = knowledge_->program->perception.sensor_of(feed.first).texts;
+void Mind::read(std::uint32_t reading, const std::string* text, std::int64_t now_us) {
+  if (text == nullptr) return silence(reading);
+  const auto& texts = knowledge_->program->perception.sensor_of(reading).texts;
   const auto found = std::lower_bound(texts.begin(), texts.end(), *text);
   const bool known = found != texts.end() && *found == *text;
-  readings_.set(feed.first, known ? static_cast<float>(found - texts.begin() + 1) : 0.0f, now_us);
+  readings_.set(reading, known ? static_cast<float>(found - texts.begin() + 1) : 0.0f, now_us);
 }
 
 /// Computes the facts that the knowledge base defines itself; they replace what the plain perception wrote.
@@ -58,8 +55,8 @@ void Mind::perceive(Perception& perception, const mts::Senses& senses, std::int6
       readings_.set(feed.first, static_cast<float>(degrees < 0.0 ? degrees + 360.0 : degrees >= 360.0 ? degrees - 360.0 : degrees), now_us);
     }
     if (feed.what == What::kSpeed && senses.odometry_known) readings_.set(feed.first, senses.speed_m_s, now_us);
-    if (feed.what == What::kTag) read_text(feed, perception.tag_text(), now_us);
-    if (feed.what == What::kMemory) read_text(feed, perception.memory_text(), now_us);
+    if (feed.what == What::kTag) read(feed.first, perception.tag_text(), now_us);
+    if (feed.what == What::kMemory) read(feed.first, perception.memory_text(), now_us);
   }
   for (std::size_t i = facts_.size(); i < cells_.size(); ++i) cells_[i] = machine_.value(static_cast<program::CellId>(i));
   looker_->look(readings_, now_us, cells_, facts_);

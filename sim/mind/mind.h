@@ -24,6 +24,13 @@ class Mind {
   void press(program::CellId fact, int ticks, float certainty = kSure);
   static constexpr int kHeld = std::numeric_limits<int>::max();   ///< as `ticks`: until it is released
   void release(program::CellId fact);
+
+  /// A reading of a sensor that only the knowledge base knows, not one of `Knowledge::feeds`. It counts until it is stale, or replaced.
+  void measure(std::uint32_t reading, float value, std::int64_t now_us) { readings_.set(reading, value, now_us); }
+  /// The same of a sensor of texts; null: it reads nothing.
+  void read(std::uint32_t reading, const std::string* text, std::int64_t now_us);
+  /// From now on the sensor is silent.
+  void silence(std::uint32_t reading) { readings_.there[reading] = 0; }
   /// One tick. Facts come from `perception`; those that the knowledge base perceives itself, from the senses.
   const program::Tick& tick(Perception& perception, const mts::Senses& senses, std::int64_t now_us, std::uint32_t dt_us);
 
@@ -37,7 +44,6 @@ class Mind {
 
  private:
   void perceive(Perception& perception, const mts::Senses& senses, std::int64_t now_us);
-  void read_text(const SensorFeed& feed, const std::string* text, std::int64_t now_us);
 
   const Knowledge* knowledge_;
   tables::Machine machine_;

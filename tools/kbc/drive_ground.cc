@@ -120,7 +120,9 @@ std::unique_ptr<sim::Labyrinth> DriveGround::floor(const std::string& path, Scri
 std::optional<Scene> DriveGround::scene(const std::string& path, const std::vector<sim::Setting>& settings, Session& session,
                                         diagnostics::Diagnostics& messages, sim::MissionsBy by) {
   Script script{sim::add_settings(settings, compiled->sources), std::nullopt};
+  const bool first = !knowledge;
   auto labyrinth = floor(path, script, session, messages);
+  if (first && knowledge) sim::report_lacking_sensors(*knowledge, messages);
   if (!labyrinth) return std::nullopt;
   auto scenario = script.file ? sim::read_scenario(*script.file, script.settings, *labyrinth, *knowledge, compiled->model, messages, by)
                               : sim::plain_scenario(*labyrinth, *knowledge, compiled->model, messages, by);

@@ -43,6 +43,7 @@ bool check(const lab::Setup& setup, const lab::Prepared& mission, const std::str
   model::StandardNames library(session.library(), session.files());
   const auto knowledge = floor ? sim::prepare(compiled->model, compiled->program, compiled->tables, messages, &library) : std::nullopt;
   if (!knowledge) return false;
+  sim::report_lacking_sensors(*knowledge, messages);
   return std::all_of(setup.set.begin(), setup.set.end(), [&](const auto& settings) {
     const source::FileId script = compiled->sources.add("scenario.toml", mission.case_of(0, lab::size_of(settings)).scenario);
     const auto set = sim::add_settings(settings, compiled->sources);

@@ -7,6 +7,7 @@
 
 #include "tools/kbc/trace/json_number.h"
 #include "tools/kbc/wire/line.h"
+#include "tools/kbc/wire/own_sensors.h"
 
 namespace kb::wire {
 namespace {
@@ -45,6 +46,18 @@ Document landmarks_json(const sim::Labyrinth& labyrinth) {
   return landmarks;
 }
 
+Document sensors_json(const sim::Knowledge& knowledge) {
+  Document sensors = Document::array();
+  for (const program::Sensor* sensor : OwnSensors(knowledge).sensors()) {
+    Document one{{"name", sensor->name}};
+    if (sensor->array) one["elements"] = sensor->count;
+    if (sensor->text) one["texts"] = sensor->texts;
+    else one.update({{"range", {trace::json_number(static_cast<float>(sensor->low)), trace::json_number(static_cast<float>(sensor->high))}}, {"unit", sensor->unit}});
+    sensors.push_back(std::move(one));
+  }
+  return sensors;
+}
+
 Document robot_json(const sim::Scenario& robot) {
   const mts::Body body = sim::as_driven(robot.body, robot.sensors.range, robot.drive);
   return {{"size", trace::json_number(body.size)}, {"radius_m", trace::json_number(body.radius_m)}, {"wheel_base_m", trace::json_number(body.wheel_base_m)}, {"speed_m_s", trace::json_number(body.top_speed_m_s)},
@@ -69,7 +82,7 @@ std::string describe(const sim::Knowledge& knowledge, const sim::Labyrinth& laby
   for (const sim::Mission& mission : knowledge.missions) missions.push_back({{"command", knowledge.program->cells[program::index(mission.command)].name}, {"goal", mission.goal}});
   const Document all{{"tick_s", options.dt_us / 1e6}, {"pause_s", static_cast<double>(options.pause_us) / 1e6}, {"scale", labyrinth.scale}, {"robot", robot_json(robot)}, {"floor", floor_json(robot.body)},
                  {"fields", fields_json()}, {"commands", std::move(buttons)}, {"missions", std::move(missions)}, {"facts_of_the_host", std::move(told)},
-                 {"facts_perceived", std::move(made)}, {"landmarks", landmarks_json(labyrinth)}};
+                 {"facts_perceived", std::move(made)}, {"sensors_of_the_host", sensors_json(knowledge)}, {"landmarks", landmarks_json(labyrinth)}};
   return all.dump(2, ' ', false, Document::error_handler_t::replace) + "\n";
 }
 

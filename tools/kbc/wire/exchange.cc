@@ -37,7 +37,7 @@ std::string seconds(std::int64_t t_us) {
 
 Exchange::Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options)
     : knowledge_(&knowledge), abort_(knowledge.find("Abort")), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
-      body_(robot.body), driver_(knowledge, sim::as_driven(robot.body, robot.sensors.range, robot.drive)), names_(*knowledge.program) {
+      body_(robot.body), driver_(knowledge, sim::as_driven(robot.body, robot.sensors.range, robot.drive)), names_(*knowledge.program), sensors_(knowledge) {
   for (const sim::CrossingMethods& crossing : robot.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
 }
 
@@ -76,6 +76,7 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   mts::Senses senses = line.senses;
   if (line.guide) set_line(*line.guide, body_, senses);
   wheels_ = driver_.hear(senses, tag_, period_s_, line.guide.has_value());
+  hear_sensors(t_us);
   if (stands() || away) wheels_ = {};
   answer.wheels = wheels_;
   answer.t_us = line.t_us;
@@ -122,6 +123,14 @@ void Exchange::hear_buttons(bool away) {
   }
   pressed_.insert(pressed_.end(), buttons_.begin(), buttons_.end());
   held_ = buttons_;
+}
+
+void Exchange::hear_sensors(std::int64_t t_us) {
+  for (const OwnSensors::Heard& heard : heard_) {
+    if (const auto* text = std::get_if<std::string>(&heard.value)) driver_.mind().read(heard.reading, text, t_us);
+    else if (const auto* number = std::get_if<float>(&heard.value)) driver_.mind().measure(heard.reading, *number, t_us);
+    else driver_.mind().silence(heard.reading);
+  }
 }
 
 /// See note [when the mind ticks].
@@ -181,6 +190,7 @@ std::optional<Mistake> Exchange::look_up(const Line& line) {
     if (auto mistake = look_up_fact(said.fact, "facts", cell)) return mistake;
     said_.emplace_back(cell, said.value);
   }
+  if (auto mistake = sensors_.look_up(line.readings, heard_)) return mistake;
   if (line.tag) return look_up_tag(*line.tag);
   tag_ = {line.reader, nullptr, 0};
   return std::nullopt;

@@ -37,6 +37,7 @@
 #include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/wire/answer.h"
 #include "tools/kbc/wire/line.h"
+#include "tools/kbc/wire/own_sensors.h"
 
 namespace kb::wire {
 
@@ -101,6 +102,7 @@ class Exchange {
   [[nodiscard]] std::optional<Mistake> take(std::string_view text, Answer& answer);
   [[nodiscard]] std::optional<Mistake> follow_clock(const Line& line, bool& set_back);
   void hear_buttons(bool away);
+  void hear_sensors(std::int64_t t_us);
   [[nodiscard]] std::optional<Mistake> look_up(const Line& line);
   [[nodiscard]] std::optional<Mistake> look_up_tag(const Tag& tag);
   [[nodiscard]] std::optional<Mistake> look_up_fact(const Name& name, std::string_view field, program::CellId& cell) const;
@@ -118,6 +120,7 @@ class Exchange {
   mts::Body body_;
   sim::Driver driver_;
   trace::CellNames names_;
+  OwnSensors sensors_;
   std::optional<Mistake> mistake_, warning_;
   std::optional<Line> line_;
   std::vector<vda5050::HostAction> actions_;
@@ -126,6 +129,7 @@ class Exchange {
   sim::TagHeard tag_;
   std::vector<program::CellId> buttons_;
   std::vector<std::pair<program::CellId, std::optional<float>>> said_;
+  std::vector<OwnSensors::Heard> heard_;
 
   // See note [a clock that leaps].
   Clock clock_;

@@ -18,7 +18,7 @@ constexpr double kLatest = 1e11;                 // s: some 3,000 years
 constexpr double kFullTurn = 6.283186;           // rad: a host that sends degrees gets a message
 constexpr Range kDark{-0.5, 1.5};                // a sensor may be slightly out of range
 constexpr Range kRow{-1.0, 1.0};                 // m: a host that sends millimetres gets a message
-constexpr Range kMetres{-1e6, 1e6}, kRanges{-1e6, 1000.0}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0};
+constexpr Range kMetres{-1e6, 1e6}, kRanges{-1e6, 1000.0}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0}, kMeasured{-1e30, 1e30};
 
 /// Which fields of those that belong together a line has, while it is read.
 struct Draft {
@@ -74,6 +74,26 @@ void read_facts(Reading& reading, const Json& json, Draft& draft) {
   }
 }
 
+void read_value(Reading& reading, const std::string& field, const Json& json, std::vector<Line::Value>& values) {
+  float value = 0.0f;
+  if (json.kind == Json::Kind::kNull) return void(values.emplace_back());
+  if (json.kind == Json::Kind::kString) return void(values.emplace_back(json.text));
+  reading.number(field, json, kMeasured, value);
+  values.emplace_back(value);
+}
+
+void read_readings(Reading& reading, const Json& json, Draft& draft) {
+  if (!reading.is("readings", json, Json::Kind::kObject)) return;
+  reading.once("readings.", json);
+  for (std::size_t i = 0; i < json.keys.size(); ++i) {
+    const Json& part = json.parts[i];
+    const std::string field = "readings." + source::printable(json.keys[i]);
+    Line::Measured& measured = draft.line.readings.emplace_back(Line::Measured{{json.keys[i], part.span}, {}, part.kind == Json::Kind::kList});
+    if (!measured.list) read_value(reading, field, part, measured.values);
+    else for (const Json& one : part.parts) read_value(reading, field, one, measured.values);
+  }
+}
+
 constexpr std::array kFields{
     Field<Draft>{"t", [](Reading& reading, const Json& json, Draft& draft) {
       reading.number("t", json, {0.0, kLatest}, draft.t_s);
@@ -114,6 +134,8 @@ constexpr std::array kFields{
       "list of names", "those that are pressed; each a fact"},
     Field<Draft>{"facts", read_facts,
       "object", "what the host says itself: names and certainties from -1 to 1; it goes before what is perceived"},
+    Field<Draft>{"readings", read_readings,
+      "object", "of sensors of the knowledge base's own: numbers in the unit of the sensor, texts, lists of arrays; null: silent"},
     Field<Draft>{"vehicle", [](Reading& reading, const Json& json, Draft& draft) { read_vehicle(reading, json, draft.line.vehicle); },
       "object", "of who drives by --orders: battery in percent, charging, field_violation; e_stop: NONE, AUTOACK, MANUAL or REMOTE; mode: AUTOMATIC, SEMIAUTOMATIC, MANUAL, SERVICE or TEACHIN"},
     Field<Draft>{"actions", [](Reading& reading, const Json& json, Draft& draft) { read_actions(reading, json, draft.line.actions); },

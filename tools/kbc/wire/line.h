@@ -32,6 +32,9 @@ struct Tag {
 
 struct Line {
   struct Said { Name fact; std::optional<float> value; };   ///< no value: the host no longer gives the fact
+  using Value = std::variant<std::monostate, float, std::string>;   ///< nothing: the sensor is silent
+  /// What a sensor of the knowledge base measured: one value, or those of an array.
+  struct Measured { Name sensor; std::vector<Value> values; bool list = false; };
   std::int64_t t_us = 0;
   mts::Senses senses;
   std::optional<Guide> guide;      ///< in place of the darknesses: `line` is silent in `senses`
@@ -39,6 +42,7 @@ struct Line {
   std::optional<Tag> tag;          ///< what it reads; nothing: no tag
   std::vector<Name> buttons;       ///< those that are pressed
   std::vector<Said> facts;
+  std::vector<Measured> readings;
   Vehicle vehicle;
   std::vector<vda5050::HostActionState> actions;
   source::Span t_at{};             ///< the place of the time

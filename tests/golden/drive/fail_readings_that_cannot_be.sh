@@ -1,0 +1,1 @@
+# RUN: kbc drive session.d/scale.kb < session.d/odd_readings.jsonl
