@@ -133,8 +133,8 @@ bool WalkOperators::line(CellIndex from, CellIndex to, std::uint32_t order, Walk
   return true;
 }
 
-bool WalkOperators::straighten(Walk& walk, Dice& dice) {
-  if (walk.size() < 3) return false;
+void WalkOperators::straighten(Walk& walk, Dice& dice) {
+  if (walk.size() < 3) return;
   const std::size_t i = dice.below(walk.size() - 2);
   const std::size_t reach = std::min(walk.size() - 1 - i, kStraightenReach);
   const std::size_t j = i + 2 + dice.below(reach - 1);
@@ -145,10 +145,9 @@ bool WalkOperators::straighten(Walk& walk, Dice& dice) {
   }
   const double least = octile_distance(grid_->cell(walk[i]), grid_->cell(walk[j]));
   const bool shorter = least < length - 1e-9;
-  if (!shorter && (waits_ || dice.below(4) != 0)) return false;  // sometimes another way of the same length is tried
-  if (!line(walk[i], walk[j], dice.below(3), scratch_)) return false;
+  if (!shorter && (waits_ || dice.below(4) != 0)) return;  // sometimes another way of the same length is tried
+  if (!line(walk[i], walk[j], dice.below(3), scratch_)) return;
   splice(walk, i, j, scratch_);
-  return shorter;
 }
 
 std::size_t WalkOperators::shortest_cut(const Walk& head, const Walk& tail) {
@@ -173,22 +172,20 @@ std::size_t WalkOperators::shortest_cut(const Walk& head, const Walk& tail) {
   return best;
 }
 
-bool WalkOperators::cross(const Walk& head, const Walk& tail, Dice& dice, Walk& child) {
+void WalkOperators::cross(const Walk& head, const Walk& tail, Dice& dice, Walk& child) {
   mark(head);
   common_.clear();
   for (std::size_t i = 1; i + 1 < tail.size(); ++i) {
     if (marked(tail[i])) common_.push_back(i);
   }
   if (common_.empty()) {
-    const bool joined = join_nearby(head, tail, dice, child);
-    if (!joined) child = head;
-    return joined;
+    if (!join_nearby(head, tail, dice, child)) child = head;
+    return;
   }
   const bool any = dice.below(2) == 0;
   const std::size_t cut = any ? common_[dice.below(common_.size())] : shortest_cut(head, tail);
   child.assign(head.begin(), head.begin() + place_[tail[cut]] + 1);
   child.insert(child.end(), tail.begin() + static_cast<std::ptrdiff_t>(cut) + 1, tail.end());
-  return true;
 }
 
 bool WalkOperators::join_nearby(const Walk& head, const Walk& tail, Dice& dice, Walk& child) {
@@ -217,21 +214,20 @@ bool WalkOperators::reroute(Walk& walk, std::size_t i, std::size_t j, Dice& dice
   return true;
 }
 
-bool WalkOperators::step_aside(Walk& walk, std::size_t i, std::size_t steps, Dice& dice) {
+void WalkOperators::step_aside(Walk& walk, std::size_t i, std::size_t steps, Dice& dice) {
   const CellIndex at = walk[i];
   const std::uint8_t moves = grid_->all_moves()[at];
-  if (moves == 0) return false;
+  if (moves == 0) return;
   std::size_t k = dice.below(8);
   while ((moves >> k & 1) == 0) k = (k + 1) % 8;
   other_.assign(1, at);
   other_.insert(other_.end(), steps, grid_->neighbour(at, k));
   other_.push_back(at);
   splice(walk, i, i, other_);
-  return true;
 }
 
-bool WalkOperators::mutate(Walk& walk, Dice& dice) {
-  if (walk.size() < 3) return false;
+void WalkOperators::mutate(Walk& walk, Dice& dice) {
+  if (walk.size() < 3) return;
   if (waits_ && dice.below(2) == 0) {
     const std::size_t i = dice.below(walk.size() - 1);
     const auto at = walk.begin() + static_cast<std::ptrdiff_t>(i);
@@ -240,11 +236,11 @@ bool WalkOperators::mutate(Walk& walk, Dice& dice) {
     } else {
       walk.insert(at, walk[i]);
     }
-    return true;
+    return;
   }
   const std::size_t i = dice.below(walk.size() - 2);
   const std::size_t j = i + 2 + dice.below(std::min(walk.size() - 1 - i, kMutateReach) - 1);
-  return reroute(walk, i, j, dice);
+  static_cast<void>(reroute(walk, i, j, dice));   // if no walk is found, it stays as it is
 }
 
 }  // namespace kb::planners

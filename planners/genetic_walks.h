@@ -28,24 +28,23 @@ class WalkOperators {
   /// neighbours; this does so for any number of nodes at once). True if the walk became shorter.
   bool erase_loops(Walk& walk);
 
-  /// Replaces the stretch between two random nodes at most 40 apart by a straight digital line, if the line is legal and not longer. True
-  /// if the walk became shorter.
-  bool straighten(Walk& walk, Dice& dice);
+  /// Replaces the stretch between two random nodes at most 40 apart by a straight digital line, if the line is legal and not longer.
+  void straighten(Walk& walk, Dice& dice);
 
   /// Makes a child from the head of one walk up to a cell that both visit, and the tail of the other from there. The cell is random, or the
   /// one that makes the child shortest. Without a common cell, two nodes at most 3 cells apart are joined by a digital line. If that fails
-  /// too, returns false and a copy of the first walk.
-  bool cross(const Walk& head, const Walk& tail, Dice& dice, Walk& child);
+  /// too, the child is a copy of the first walk.
+  void cross(const Walk& head, const Walk& tail, Dice& dice, Walk& child);
 
   /// Replaces the stretch between two random nodes at most 30 apart by a random walk. With waits, may instead stay a step longer or shorter
   /// somewhere.
-  bool mutate(Walk& walk, Dice& dice);
+  void mutate(Walk& walk, Dice& dice);
   /// Replaces the stretch between two given nodes by a random walk.
   bool reroute(Walk& walk, std::size_t i, std::size_t j, Dice& dice);
 
   /// Steps aside from node i into a random neighbour, stays there for some steps and comes back, to let another robot pass in a corridor.
-  /// False if there is no neighbour.
-  bool step_aside(Walk& walk, std::size_t i, std::size_t steps, Dice& dice);
+  /// Nothing changes if there is no neighbour.
+  void step_aside(Walk& walk, std::size_t i, std::size_t steps, Dice& dice);
 
   /// Direction of the move between two neighbours, 0 to 7; 8 if they are the same cell.
   [[nodiscard]] int direction(CellIndex from, CellIndex to) const;

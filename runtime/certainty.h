@@ -57,8 +57,8 @@ struct Levels {
 // Plain double, for the compiler only.
 constexpr double table_log(double x) {
   int k = 0;
-  for (; x > 1.5; x *= 0.5) ++k;
-  for (; x < 0.75; x *= 2.0) --k;
+  while (x > 1.5) x *= 0.5, ++k;
+  while (x < 0.75) x *= 2.0, --k;
   const double s = (x - 1.0) / (x + 1.0);
   double power = s, sum = 0.0;
   for (int n = 1; n < 40; n += 2, power *= s * s) sum += power / n;
@@ -75,7 +75,8 @@ constexpr double table_g(double y, double rest) {
   if (rest > 1e-3) {
     log = table_log(y);
   } else {
-    for (double power = rest, n = 1.0; n < 12.0; n += 1.0, power *= rest) log -= power / n;
+    double power = rest;
+    for (int n = 1; n < 12; ++n, power *= rest) log -= power / n;
   }
   return table_sqrt(-2.0 * log);
 }

@@ -149,15 +149,16 @@ plans::Result answer_with_progress(const Work& work, const plans::Method& method
 int answer_one(Work& work) {
   const auto problem = read_problem(work);
   if (!problem) return kErrors;
-  const double optimum_m = plan(*plans::find_method("astar"), *problem, work.run()).length_m;   // 0 if the budget ends it
+  const plans::Method& astar = *plans::find_method("astar");
+  const plans::Result optimum = answer_with_progress(work, astar, *problem);   // its length is 0 if the budget ends it
   std::vector<plans::Result> results;
   std::vector<plans::Panel> panels;
   std::string csv;
   const bool draws = !work.options.svg.empty();   // on a large map, a field takes longer than the path
   results.reserve(work.methods.size());
   for (const plans::Method* method : work.methods) {
-    const plans::Result& result = results.emplace_back(answer_with_progress(work, *method, *problem));
-    const std::string text = describe(result, optimum_m, work.map);
+    const plans::Result& result = results.emplace_back(method == &astar ? optimum : answer_with_progress(work, *method, *problem));
+    const std::string text = describe(result, optimum.length_m, work.map);
     print_answer(work, *method, result, text);
     if (result.repelled_from_m > 0.0 && result.outcome != plans::Outcome::kReached) {
       work.session.report(Kind::kPlanGoalRepelled, {fmt::format("{:.3g}", result.repelled_from_m), method->name});
@@ -174,7 +175,7 @@ int answer_one(Work& work) {
   if (!files.empty() && !work.session.write_files(files)) return kErrors;
   const plans::Result& only = results.front();
   if (results.size() == 1 && only.outcome != plans::Outcome::kReached) {
-    work.session.report(Kind::kPlanFailed, {work.methods.front()->name, describe(only, optimum_m, work.map)});
+    work.session.report(Kind::kPlanFailed, {work.methods.front()->name, describe(only, optimum.length_m, work.map)});
   }
   return work.session.exit_code();
 }
