@@ -118,7 +118,8 @@ void Diagnostics::finish(Diagnostic&& d) {
   // Messages without a place differ in their words: two files that cannot be read are two messages.
   const bool by_words = !d.span.known() || says_unknown(d.kind);
   const source::Span place = by_words ? source::Span{} : d.span, other = by_words || d.notes.empty() ? source::Span{} : d.notes.front().span;
-  if (!said_.insert({d.kind, place, other, by_words ? d.message : std::string()}).second) return;
+  const bool several = by_words || d.kind == Kind::kLayoutAdapted;   // one part of a layout may be adapted in several ways
+  if (!said_.insert({d.kind, place, other, several ? d.message : std::string()}).second) return;
   const bool error = d.severity == Severity::kError;
   broken_ = broken_ || info(d.kind).severity == Severity::kError;
   const std::size_t nth = error ? ++errors_ : ++warnings_;

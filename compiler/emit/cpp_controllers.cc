@@ -199,21 +199,20 @@ void emit_limits(const CppInput& in, std::string& out) {
   out +=
       "/// How fast the robot may drive on its present leg, m/s, by the map (`at most`); infinity if the road has no limit.\n"
       "[[nodiscard]] inline float speed_limit_m_per_s(const Mind& mind) {\n"
-      "  struct Limit {\n"
-      "    Satellite leg;\n"
-      "    float m_per_s;\n"
-      "  };\n"
-      "  static constexpr Limit kLimits[] = {\n";
+      "  static constexpr Satellite kLegs[] = {\n";
   for (const program::LegLimit& limit : in.program.limits) {
     const std::string& leg = in.names.satellites[program::index(limit.leg) - in.program.facts];
-    fmt::format_to(Out(out), "      {{Satellite::{}, {}}},  // {}\n", leg, float_literal(limit.limit_m_per_s), in.program[limit.leg].name);
+    fmt::format_to(Out(out), "      Satellite::{},  // {}: {} m/s\n", leg, in.program[limit.leg].name, limit.limit_m_per_s);
   }
-  out +=
-      "  };\n"
+  out += "  };\n  static constexpr float kLimits[] = {";
+  for (const program::LegLimit& limit : in.program.limits) fmt::format_to(Out(out), "{}{}", &limit == in.program.limits.data() ? "" : ", ", float_literal(limit.limit_m_per_s));
+  fmt::format_to(Out(out),
+      "}};\n"
       "  float lowest = std::numeric_limits<float>::infinity();\n"
-      "  for (const Limit& limit : kLimits) {\n"
-      "    if (limit.m_per_s < lowest && mind.high(limit.leg)) lowest = limit.m_per_s;\n"
-      "  }\n"
+      "  for (unsigned i = 0; i != {}; ++i) {{\n"
+      "    if (kLimits[i] < lowest && mind.high(kLegs[i])) lowest = kLimits[i];\n"
+      "  }}\n", in.program.limits.size());
+  out +=
       "  return lowest;\n"
       "}\n\n";
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -128,6 +129,7 @@ struct Draft {
   std::unordered_map<std::uint32_t, std::uint32_t> perceived_of;  // by fact: index into Model::perceived
   SetId exits = SetId::kNone, methods = SetId::kNone;  // see note [exits of roads]
   std::vector<DirectedRoad> roads;
+  float lowest_limit_m_per_s = std::numeric_limits<float>::infinity();   // of all roads
   std::vector<LandmarkInfo> landmarks;
   std::unordered_map<std::string_view, bool> lost_landmarks;  // their names were taken already; reported
   std::vector<bool> broken_maps;                    // by map: a road could not be read

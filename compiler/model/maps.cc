@@ -5,6 +5,8 @@
 // has most of the names which roads use as exits (of several such sets the one declared first). A name that is not in this set
 // is an error at its place, with the line `names S more { ... }` that would add it. The set of the methods after `by` is found
 // in the same way, but sets over which strategies are declared are preferred, because a strategy drives each road.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <unordered_set>
@@ -12,6 +14,7 @@
 
 #include "compiler/model/draft.h"
 #include "compiler/model/shapes.h"
+#include "compiler/model/speed.h"
 #include "compiler/model/units.h"
 #include "compiler/syntax/tree_text.h"
 
@@ -224,8 +227,11 @@ class MapReader {
     const auto speed = to_si(number, draft_.diagnostics);
     if (!speed || !in_reach(number, speed->value, draft_.diagnostics)) return 0.0f;
     const auto limit = static_cast<float>(speed->value);
-    if (speed->unit == "m/s" && limit > 0.0f) return limit;
-    draft_.diagnostics.report(Kind::kSpeedLimit, number.span, {syntax::number_text(number)});
+    if (speed->unit == "m/s" && speed->value >= kSlowest_m_per_s) {
+      draft_.lowest_limit_m_per_s = std::min(draft_.lowest_limit_m_per_s, limit);
+      return limit;
+    }
+    draft_.diagnostics.report(Kind::kSpeedLimit, number.span, {fmt::format("{}", kSlowest_m_per_s), syntax::number_text(number)});
     return 0.0f;
   }
 

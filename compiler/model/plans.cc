@@ -200,7 +200,7 @@ class Planner {
                        fmt::format("{}.back{}:{}>{}", name, j, landmark_name(draft_, leg.to), landmark_name(draft_, leg.from)), at_);
     set_field(draft_, back.row, "from", draft_.landmarks[leg.to].row);
     set_field(draft_, back.row, "to", draft_.landmarks[leg.from].row);
-    limit_leg(draft_, back.row, draft_.roads[leg.road]);
+    limit_leg(draft_, back.row, draft_.roads[leg.road].limit_m_per_s);
     draft_.legs.push_back(back);
     return static_cast<std::uint32_t>(draft_.legs.size() - 1);
   }

@@ -58,7 +58,7 @@ constexpr Slot kSlots[] = {
     {T::kMap, T::kArrow, "a landmark", N::kLandmark},
     {T::kMap, T::kDot, "an exit", N::kExit},
     {T::kMap, T::kBy, "a method", N::kMethod},
-    {T::kMap, T::kAt, "a point such as `(1, 2)` (landmark) or `most` (road)"},
+    {T::kMap, T::kAt, "a point such as `(1, 2)`"},
     {T::kMap, T::kMost, "a speed such as `0.3 m/s`"},
     {T::kMap, T::kThrough, "a point such as `(1, 2)`"},
     {T::kMap, T::kLeftParen, "a coordinate"},
@@ -160,6 +160,7 @@ Place special_slot(const TokenStream& stream, const TokenSet& expected) {
   }
   if (last == T::kEvent || last == T::kAttention) return declares ? Place{"a number", N::kNone} : Place{"a fact", N::kFact};
   if (last == T::kSat && !expected.contains(T::kEqual)) return {"a fact or a strategy", N::kFactOrStrategy};
+  if (expected.contains(T::kMost)) return {"`most` and a speed such as `0.3 m/s`", N::kNone};
   if (expected.contains(T::kReset)) return {"an effect such as `+Lamp`, `-Lamp` or `reset`", N::kSatellite};
   if (expected.contains(T::kLabel) && last == T::kIdentifier) return {"a member, a line such as `N: S`, or `}`", N::kMember};
   const TokenKind bracket = stream.open_bracket().kind;

@@ -189,13 +189,13 @@ void TreeBuilder::begin_road(Span from, Span exit, Id both_ways, Span to, Span a
   road_.both_ways = both_ways != 0;
 }
 
-void TreeBuilder::road_by(Span clause, Span method) {
-  if (road_.by.known()) diagnostics_.report(Kind::kClauseTwice, clause, {"by"});
+void TreeBuilder::road_by(Span by, Span method) {
+  if (road_.by.known()) diagnostics_.report(Kind::kClauseTwice, source::join(by, method), {"by"});
   road_.by = method;
 }
 
-void TreeBuilder::road_limit(Span clause, Id number) {
-  if (road_.limit != 0) diagnostics_.report(Kind::kClauseTwice, clause, {"at most"});
+void TreeBuilder::road_limit(Span at, Span end, Id number) {
+  if (road_.limit != 0) diagnostics_.report(Kind::kClauseTwice, source::join(at, end), {"at most"});
   map_.limits.push_back(numbers_[number]);
   road_.limit = static_cast<std::uint32_t>(map_.limits.size());
 }

@@ -73,8 +73,8 @@ class TreeBuilder {
   void begin_map(Span name, std::size_t landmarks, std::size_t roads);
   void add_landmark(Span span, Span name, Id at = kNothing);
   void begin_road(Span from, Span exit, Id both_ways, Span to, Span approach);
-  void road_by(Span clause, Span method);
-  void road_limit(Span clause, Id number);
+  void road_by(Span by, Span method);
+  void road_limit(Span at, Span end, Id number);
   void road_through(Id at) { road_.through.push_back(points_[at]); }
   void end_road(Span span);
   void abandon_map_item() { road_ = Road{}; }

@@ -1,6 +1,7 @@
 #include "sim/mind/driver.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kb::sim {
 
@@ -18,10 +19,22 @@ mts::Motion Driver::hear(const mts::Senses& senses, const TagHeard& tag, float p
   perception_.hear(steady_, memories_.of(tag), dt_s, measured);
   const mts::Motion wanted = pilot_.step(steady_, dt_s);
   perception_.tell(pilot_.plight(), pilot_.lost());
-  return slowed(as_.out(wanted), perception_.limit_m_s(knowledge_->limits));
+  return slowed(as_.out(wanted), limit_m_s());
+}
+
+/// The limits of its knowledge, and until it leaves a road also those that held there when it took that knowledge.
+float Driver::limit_m_s() {
+  const auto here = perception_.came_by();
+  if (!kept_.empty() && (!here || std::isinf(kept_.at(*here)))) kept_ = SpeedLimits();
+  return std::min(perception_.limit_m_s(knowledge_->limits), kept_.lowest());
 }
 
 void Driver::take(const Knowledge& next) {
+  if (const auto here = perception_.came_by()) {
+    const float limit_m_s = std::min(knowledge_->limits.at(*here), kept_.at(*here));
+    kept_ = SpeedLimits();
+    if (std::isfinite(limit_m_s)) kept_.add(*here, limit_m_s);
+  }
   mind_.take(next);
   knowledge_ = &next;
 }

@@ -70,6 +70,7 @@ class Driver {
   [[nodiscard]] bool lost() const { return pilot_.lost(); }
 
  private:
+  [[nodiscard]] float limit_m_s();
   [[nodiscard]] std::vector<std::string> high_of(const std::vector<program::CellId>& satellites) const;
   const Knowledge* knowledge_;    // the mind's present one; perception and controllers keep the first
   mts::Similarity as_;            // perception and controllers know robots of size 1
@@ -79,6 +80,7 @@ class Driver {
   Perception perception_;
   Pilot pilot_;
   Mind mind_;
+  SpeedLimits kept_;              // of the road that it was on when it took its knowledge base: an order's edge ends at its node, not before
 };
 
 }  // namespace kb::sim

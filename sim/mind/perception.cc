@@ -271,12 +271,17 @@ std::uint32_t Perception::leaves_by() const {
   return phase_ == Phase::kInside ? exit_ : phase_ == Phase::kLeaving ? arm_ : kNoExit;
 }
 
-float Perception::limit_m_s(const SpeedLimits& limits) const {
+std::optional<RoadEnd> Perception::came_by() const {
+  if (road_.known()) return road_.entered();
   const bool before_sign = memory_ != nullptr && (phase_ == Phase::kApproach || phase_ == Phase::kInside);
-  if (!road_.known() && !before_sign) return limits.lowest();
-  const float came_m_s = limits.at(road_.known() ? road_.entered() : RoadEnd{memory_->landmark, memory_->exits[arm_].name});
+  return before_sign ? std::optional(RoadEnd{memory_->landmark, memory_->exits[arm_].name}) : std::nullopt;
+}
+
+float Perception::limit_m_s(const SpeedLimits& limits) const {
+  const auto came = came_by();
+  if (!came) return limits.lowest();
   const std::uint32_t exit = leaves_by();
-  return exit == kNoExit ? came_m_s : std::min(came_m_s, limits.at({memory_->landmark, memory_->exits[exit].name}));
+  return exit == kNoExit ? limits.at(*came) : std::min(limits.at(*came), limits.at({memory_->landmark, memory_->exits[exit].name}));
 }
 
 void Perception::write_landmark(std::span<float> facts) const {

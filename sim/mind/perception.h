@@ -67,6 +67,8 @@ class Perception {
   [[nodiscard]] bool in_crossing() const { return phase_ == Phase::kInside; }
   /// Where it is on that road; nothing in a crossing, or if the road is unknown.
   [[nodiscard]] std::optional<MapPlace> on_road() const { return in_crossing() ? std::nullopt : road_.where(reckoning_.at); }
+  /// The end by which it entered the road that it is on; in a crossing, that of the road by which it came, until it is out. Nothing if unknown.
+  [[nodiscard]] std::optional<RoadEnd> came_by() const;
   /// How fast it may drive where it is, m/s: see note [where a limit holds]. Infinity if there is no limit.
   [[nodiscard]] float limit_m_s(const SpeedLimits& limits) const;
   /// Writes the facts of a tick. Anything seen since the last tick counts, however briefly.

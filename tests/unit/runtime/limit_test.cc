@@ -17,7 +17,7 @@ TEST(SpeedLimit, IsThatOfTheRoadOfThePresentLeg) {
   EXPECT_EQ(speed_limit_m_per_s(mind), kNone) << "on no mission";
   facts.Go = 0.9f;
   mind.tick(facts, mts::milliseconds(20));
-  EXPECT_EQ(speed_limit_m_per_s(mind), kNone) << "on an unknown road to the first landmark";
+  EXPECT_EQ(speed_limit_m_per_s(mind), 0.15f) << "the lowest of all, on an unknown road to the first landmark";
   facts.Dock = 0.9f;
   mind.tick(facts, mts::milliseconds(20));
   EXPECT_EQ(speed_limit_m_per_s(mind), 0.3f);

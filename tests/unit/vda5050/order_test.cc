@@ -96,7 +96,7 @@ TEST_F(Orders, WhatTheVehicleDoesNotHeedIsTold) {
 TEST_F(Orders, AnEdgeSaysHowFastItsRoadsMayBeDriven) {
   Json json = order("A", 0, {"n1", "n2", "n3"});
   json["edges"][0]["maxSpeed"] = 0.0;
-  refuses(json, "validationError", "edges[0].maxSpeed is 0.0, and at that speed nobody arrives");
+  refuses(json, "validationError", "edges[0].maxSpeed is 0.0, and this vehicle drives no slower than 0.02 m/s");
   json["edges"][0]["maxSpeed"] = "slow";
   refuses(json, "validationError", "edges[0].maxSpeed is a string, not a number");
   json["edges"][0]["maxSpeed"] = 0.3;

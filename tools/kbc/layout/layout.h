@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
+#include "compiler/model/speed.h"
 #include "compiler/source/source.h"
 
 namespace kb::layout {
@@ -34,8 +35,10 @@ struct Point {
 };
 inline double distance(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
 
-/// A speed limit as read; 0, no limit, if nothing on wheels is faster.
+/// A speed limit as read, of a way that may be driven; 0, no limit, if nothing on wheels is faster.
 inline double limit_of(double m_s) { return m_s < 1000.0 ? m_s : 0.0; }
+/// Whether a way with this limit can be driven at all.
+inline bool may_drive(double limit_m_s) { return limit_m_s >= model::kSlowest_m_per_s; }
 
 /// The lower one of two limits, of which 0 is none.
 inline double lower_limit(double a, double b) { return a == 0.0 || (b > 0.0 && b < a) ? b : a; }

@@ -87,6 +87,28 @@ class LifReader {
     }
   }
 
+  // How fast the edge may be driven; without a choice of a type of vehicle, by the slowest that may drive it.
+  double limit_on(const Json& edge, const Json& taken, const Json& id) {
+    const auto limit = [](const Json& of_type) {
+      const Json* speed = of_type.find("maxSpeed");
+      return speed == nullptr || speed->kind != Json::Kind::kNumber ? 0.0 : limit_of(speed->number);
+    };
+    double lowest = limit(taken);
+    if (!choice_.vehicle.empty()) return lowest;
+    bool differ = false;
+    for (const std::string_view key : {"vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"}) {
+      const Json* list = edge.find(key);
+      if (list == nullptr) continue;
+      for (const Json& one : list->parts) {
+        const double other = limit(one);
+        differ = differ || other != limit(taken);
+        if (other == 0.0 || layout::may_drive(other)) lowest = lower_limit(lowest, other);
+      }
+    }
+    if (differ) adaptations_.note("edge that types of vehicles may drive at different speeds: at the lowest; see --vehicle", id.span);
+    return lowest;
+  }
+
   // The properties of a node or edge for the type of vehicle that was asked for. Null if it has none for that type, which then may not
   // go there. If no type was asked for, those of the first type.
   const Json* properties(const Json& thing, const std::string& what, std::string_view v1, std::string_view v2) {
@@ -161,7 +183,7 @@ class LifReader {
       if (choice_.vehicle.empty()) note_other_trajectories(edge, *of_vehicle, id->span);
       if (!may_drive(*of_vehicle, *id)) return;
       note_restrictions(*of_vehicle);
-      if (const Json* speed = of_vehicle->find("maxSpeed")) way.limit_m_s = limit_of(speed->number);
+      way.limit_m_s = limit_on(edge, *of_vehicle, *id);
       way.marked = is_marked(edge, *of_vehicle);
       if (const Json* trajectory = of_vehicle->find("trajectory")) {
         way.through = read_trajectory(*trajectory, places.find(way.from), places.find(way.to));
@@ -174,7 +196,7 @@ class LifReader {
   bool may_drive(const Json& of_vehicle, const Json& id) {
     const Fields fields(of_vehicle, fmt::format("edge `{}`", id.text), diagnostics_);
     const Json* speed = fields.may("maxSpeed", Json::Kind::kNumber);
-    if (speed != nullptr && !(speed->number > 0.0)) {
+    if (speed != nullptr && !layout::may_drive(speed->number)) {
       diagnostics_.report(Kind::kLayoutBarred, speed->span, {id.text, fmt::format("its `maxSpeed` is {}", speed->text)});
       return false;
     }

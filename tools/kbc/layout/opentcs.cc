@@ -139,9 +139,9 @@ class OpentcsReader {
     const source::Span span = span_of(path);
     Way way{id, text(path, "sourcePoint", what), text(path, "destinationPoint", what), {}, false, span, span};
     const double ahead_m_s = speed(path, "maxVelocity", kNoLimit, what), back_m_s = speed(path, "maxReverseVelocity", 0.0, what);
-    const bool ahead = ahead_m_s > 0.0, back = back_m_s > 0.0;
+    const bool ahead = may_drive(ahead_m_s), back = may_drive(back_m_s);
     if (path.attribute("locked").as_bool()) return adaptations_.note("path that is locked: left out", span);
-    if (!ahead && !back) return adaptations_.note("path with a speed of 0 in both directions: left out", span);
+    if (!ahead && !back) return adaptations_.note("path that may be driven in neither direction, by its speeds: left out", span);
     way.through = read_bends(path.child("pathLayout"), places.find(way.from), places.find(way.to));
     if (!way.through.empty() && (drawn_elsewhere_.contains(way.from) || drawn_elsewhere_.contains(way.to))) {
       adaptations_.note("path whose ends are drawn elsewhere than they lie: straight", span);

@@ -123,18 +123,18 @@ class OrderReader {
       return;
     }
     if (drive->twice) adaptations_.note("edge that the layout has twice, on different ways: the first is taken", edge.id->span);
+    const double limit_m_s = limit_on(edge);
     if (drive->visits.empty()) return adaptations_.note("edge of the order between places at one spot: there is nothing to drive", edge.id->span);
     mission.visits.back().exit = drive->visits.front().exit;
     const auto first = static_cast<std::ptrdiff_t>(mission.visits.size()) - 1;
     mission.visits.insert(mission.visits.end(), drive->visits.begin() + 1, drive->visits.end());
-    const double limit_m_s = limit_on(edge);
     std::for_each(mission.visits.begin() + first, mission.visits.end(), [&](Visit& visit) { visit.limit_m_s = limit_m_s; });
   }
 
   double limit_on(const Link& edge) {
     const Json* speed = Fields(*edge.json, edge.name(), diagnostics_).may("maxSpeed", Json::Kind::kNumber);
     if (speed == nullptr) return 0.0;
-    if (!(speed->number > 0.0)) diagnostics_.report(Kind::kLayoutBarred, speed->span, {edge.id->text, fmt::format("its `maxSpeed` is {}", speed->text)});
+    if (!may_drive(speed->number)) diagnostics_.report(Kind::kLayoutBarred, speed->span, {edge.id->text, fmt::format("its `maxSpeed` is {}", speed->text)});
     return limit_of(speed->number);
   }
 

@@ -22,8 +22,8 @@ std::string point_text(Point p) {
   return fmt::format("({}, {})", rounded(p.x_m), rounded(p.y_m));
 }
 
-/// Rounded to tenths of a millimetre a second, and not to 0.
-double speed(double m_s) { return std::max(std::round(m_s * 1e4), 1.0) / 1e4; }
+/// Rounded to tenths of a millimetre a second.
+double speed(double m_s) { return std::round(m_s * 1e4) / 1e4; }
 
 /// Whether a text from `worded` can begin the name of a landmark. With `_` behind it, it is no word of the language.
 bool begins_name(const std::string& text) { return !text.empty() && text[0] != '_' && syntax::is_name(text + '_'); }

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "compiler/model/speed.h"
 #include "tools/kbc/json/json.h"
 
 namespace kb::vda5050 {
@@ -85,8 +86,8 @@ class Reader {
   [[nodiscard]] double speed(const Json& object, const char* key, std::string_view where) {
     if (object.find(key) == nullptr) return 0.0;
     const Json* value = need(object, key, where, Json::Kind::kNumber);
-    if (value == nullptr || value->number > 0.0) return value != nullptr ? value->number : 0.0;
-    wrong(fmt::format("{}{} is {}, and at that speed nobody arrives", where, key, clipped(value->text)));
+    if (value == nullptr || value->number >= model::kSlowest_m_per_s) return value != nullptr ? value->number : 0.0;
+    wrong(fmt::format("{}{} is {}, and this vehicle drives no slower than {} m/s", where, key, clipped(value->text), model::kSlowest_m_per_s));
     return 0.0;
   }
   [[nodiscard]] bool truth(const Json& object, const char* key, std::string_view where) {
