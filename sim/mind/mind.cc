@@ -23,6 +23,13 @@ void Mind::take(const Knowledge& next) {
   knowledge_ = &next;
   cells_.assign(next.program->cells.size(), 0.0f);
   if (next.perception) looker_ = tables::make_looker(*next.program, *next.perception);
+  for (const auto& [reading, text] : std::map(texts_)) {   // its facts may ask for other texts
+    if (readings_.there[reading] != 0) read(reading, &text, readings_.at_us[reading]);
+  }
+}
+
+void Mind::set_clock(std::int64_t now_us) {
+  for (std::int64_t& at_us : readings_.at_us) at_us = std::min(at_us, now_us);
 }
 
 void Mind::press(program::CellId fact, int ticks, float certainty) { pressed_.push_back({fact, ticks, certainty}); }
@@ -33,6 +40,7 @@ void Mind::release(program::CellId fact) {
 
 void Mind::read(std::uint32_t reading, const std::string* text, std::int64_t now_us) {
   if (text == nullptr) return silence(reading);
+  texts_[reading] = *text;
   const auto& texts = knowledge_->program->perception.sensor_of(reading).texts;
   const auto found = std::lower_bound(texts.begin(), texts.end(), *text);
   const bool known = found != texts.end() && *found == *text;

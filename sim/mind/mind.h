@@ -2,8 +2,10 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "compiler/program/tick.h"
@@ -25,10 +27,12 @@ class Mind {
   static constexpr int kHeld = std::numeric_limits<int>::max();   ///< as `ticks`: until it is released
   void release(program::CellId fact);
 
-  /// A reading of a sensor that only the knowledge base knows, not one of `Knowledge::feeds`. It counts until it is stale, or replaced.
+  /// A reading of a sensor of the knowledge base. It counts until it is stale, or replaced. Those of `Knowledge::feeds` are replaced on each tick.
   void measure(std::uint32_t reading, float value, std::int64_t now_us) { readings_.set(reading, value, now_us); }
   /// The same of a sensor of texts; null: it reads nothing.
   void read(std::uint32_t reading, const std::string* text, std::int64_t now_us);
+  /// Readings of later than now were given a wrong time: they are of now.
+  void set_clock(std::int64_t now_us);
   /// From now on the sensor is silent.
   void silence(std::uint32_t reading) { readings_.there[reading] = 0; }
   /// One tick. Facts come from `perception`; those that the knowledge base perceives itself, from the senses.
@@ -49,6 +53,7 @@ class Mind {
   tables::Machine machine_;
   std::unique_ptr<tables::Looker> looker_;
   tables::ReadingTable readings_;
+  std::map<std::uint32_t, std::string> texts_;   // by reading: what was read last
   std::vector<float> facts_, cells_, before_;
   struct Button { program::CellId fact{}; int ticks = 0; float certainty = kSure; };
   std::vector<Button> pressed_;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
@@ -31,6 +32,12 @@ map Town {
 }
 command Go
 fact Fire
+sensor load  0..50 noise 0.5 stale 2 s
+sensor badge text
+sensor range[10] 0..4 m
+fact Loaded = load ~ ramp(5, 10)
+fact Anna   = badge ~ "anna"
+fact Far    = range[8] ~ ramp(1 m, 2 m)
 route Errand on Town by Go: Well -> Mill
 )";
 
@@ -85,6 +92,45 @@ class Cab {
 /// On its way, at 1 s.
 void set_off(Cab& cab, double from_s = 0.0) {
   for (int i = 0; i < 50; ++i) static_cast<void>(cab.say(from_s + 0.02 * i, i >= 20 && i < 30 ? R"(,"buttons":["Go"])" : ""));
+}
+
+/// Whether the last tick of `answer` saw the fact.
+bool saw(const Json& answer, std::string_view fact) {
+  const Json& seen = answer["seen"];
+  return std::find(seen.begin(), seen.end(), fact) != seen.end();
+}
+
+TEST(Exchange, HearsReadingsUntilTheyAreStale) {
+  Cab cab;
+  static_cast<void>(cab.say(0.05, R"(,"readings":{"load":40,"badge":"anna","range":[null,null,null,null,null,null,null,null,3.5,null]})"));
+  const Json soon = cab.say(0.15), late = cab.say(10.0);
+  EXPECT_TRUE(saw(soon, "Loaded") && saw(soon, "Anna") && saw(soon, "Far"));
+  EXPECT_FALSE(late.contains("seen")) << "after a pause it stands and does not tick";
+  static_cast<void>(cab.say(10.05, R"(,"buttons":["Go"])"));
+  const Json then = cab.say(10.15);
+  EXPECT_FALSE(saw(then, "Loaded"));
+  EXPECT_TRUE(saw(then, "Anna")) << then;
+}
+
+TEST(Exchange, HearsTheReadingsOfALineWithAWrongTimeAsOfNow) {
+  Cab cab;
+  for (int i = 0; i < 10; ++i) static_cast<void>(cab.say(0.05 + 0.1 * i));
+  static_cast<void>(cab.say(100.0, R"(,"readings":{"load":40})"));
+  bool loaded = false;
+  for (int i = 10; i < 45; ++i) {
+    const Json answer = cab.say(0.05 + 0.1 * i);
+    loaded = saw(answer, "Loaded");
+    EXPECT_TRUE(loaded || i != 12);
+  }
+  EXPECT_FALSE(loaded) << "it is stale after two seconds";
+}
+
+TEST(Exchange, RefusesReadingsThatAreThereTwiceOrOfTheRobotItself) {
+  Cab cab;
+  const auto code = [&](std::string_view readings) { return cab.say(0.05, fmt::format(R"(,"readings":{})", readings))["error"]["code"]; };
+  EXPECT_EQ(code(R"({"range":[null,null,null,null,null,null,null,null,1,2],"range[9]":1})"), "KB1372");
+  EXPECT_EQ(code(R"({"range[3]":1})"), "KB1385");
+  EXPECT_EQ(code(R"({"badge":[true]})"), "KB1373");
 }
 
 TEST(Exchange, DrivesWhenACommandIsPressed) {

@@ -48,9 +48,10 @@ Document landmarks_json(const sim::Labyrinth& labyrinth) {
 
 Document sensors_json(const sim::Knowledge& knowledge) {
   Document sensors = Document::array();
-  for (const program::Sensor* sensor : OwnSensors(knowledge).sensors()) {
+  for (const auto& [sensor, from] : OwnSensors(knowledge).sensors()) {
     Document one{{"name", sensor->name}};
     if (sensor->array) one["elements"] = sensor->count;
+    if (from > 0) one["from"] = from;
     if (sensor->text) one["texts"] = sensor->texts;
     else one.update({{"range", {trace::json_number(static_cast<float>(sensor->low)), trace::json_number(static_cast<float>(sensor->high))}}, {"unit", sensor->unit}});
     sensors.push_back(std::move(one));

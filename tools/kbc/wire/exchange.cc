@@ -14,10 +14,6 @@ namespace {
 
 constexpr int kManyPauses = 5;   // so many pauses in a row mean that the host is just slow
 
-Mistake no_such(std::string_view kind, const Name& name, std::string field, std::optional<std::string> better) {
-  return {Kind::kWireUnknownName, {std::string(kind), source::printable(name.text), {}}, std::move(field), name.at, std::move(better)};
-}
-
 /// The first multiple of `dt_us` from `t_us` on.
 std::int64_t multiple_from(std::int64_t t_us, std::int64_t dt_us) { return (t_us + dt_us - 1) / dt_us * dt_us; }
 
@@ -96,6 +92,7 @@ std::optional<Mistake> Exchange::follow_clock(const Line& line, bool& set_back) 
   if (leapt_from_ && t_us > leapt_from_->t_us) {
     warning_ = Mistake{Kind::kWireLeap, {now, before, {}}, "t", line.t_at};
     clock_ = *leapt_from_;
+    driver_.mind().set_clock(clock_.t_us);
     return std::nullopt;
   }
   const bool goes_on = refused_us && line.t_us > *refused_us && line.t_us - *refused_us <= options_.pause_us;

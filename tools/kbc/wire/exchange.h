@@ -1,8 +1,8 @@
 // A knowledge base at the wheel of any robot: lines with senses in, lines with wheel speeds out.
 //
 // note [when the mind ticks]
-// The mind ticks at multiples of `dt`. A tick takes place when the first later line comes, before that line is heard: with the senses of the
-// line before, and the buttons and facts of all lines since the last tick, including this one. If a host is slower than `dt`, there is one
+// The mind ticks at multiples of `dt`. A tick takes place when the first later line comes, before that line is heard: with the senses and
+// readings of the line before, and the buttons and facts of all lines since the last tick, including this one. If a host is slower than `dt`, there is one
 // tick for each line, as long as the time since the last one.
 //
 // note [a host that was away]

@@ -98,6 +98,8 @@ bool Reading::is(std::string_view field, const Json& json, Json::Kind kind) {
   return false;
 }
 
+void Reading::unwanted(std::string_view field, const Json& json, std::string wanted) { wrong(wrong_type(field, json, std::move(wanted))); }
+
 void Reading::once(std::string_view prefix, const Json& object) {
   std::set<std::string_view> seen;
   for (std::size_t i = 0; i < object.keys.size(); ++i) {

@@ -38,6 +38,8 @@ class Reading {
   void numbers(std::string_view field, const Json& json, Range range, std::span<float> values);
   /// Whether the value is of that kind; if not, that is a mistake.
   bool is(std::string_view field, const Json& json, Json::Kind kind);
+  /// Another kind of value was wanted: `a number`.
+  void unwanted(std::string_view field, const Json& json, std::string wanted);
   /// Checks that no key occurs twice; `prefix` is put before their names: `tag.`.
   void once(std::string_view prefix, const Json& object);
 

@@ -1,5 +1,7 @@
 #include "tools/kbc/wire/line.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -78,6 +80,7 @@ void read_value(Reading& reading, const std::string& field, const Json& json, st
   float value = 0.0f;
   if (json.kind == Json::Kind::kNull) return void(values.emplace_back());
   if (json.kind == Json::Kind::kString) return void(values.emplace_back(json.text));
+  if (json.kind != Json::Kind::kNumber) return reading.unwanted(field, json, "a number or a string");
   reading.number(field, json, kMeasured, value);
   values.emplace_back(value);
 }
@@ -90,7 +93,7 @@ void read_readings(Reading& reading, const Json& json, Draft& draft) {
     const std::string field = "readings." + source::printable(json.keys[i]);
     Line::Measured& measured = draft.line.readings.emplace_back(Line::Measured{{json.keys[i], part.span}, {}, part.kind == Json::Kind::kList});
     if (!measured.list) read_value(reading, field, part, measured.values);
-    else for (const Json& one : part.parts) read_value(reading, field, one, measured.values);
+    else for (const Json& one : part.parts) read_value(reading, fmt::format("{}[{}]", field, measured.values.size()), one, measured.values);
   }
 }
 
@@ -135,7 +138,7 @@ constexpr std::array kFields{
     Field<Draft>{"facts", read_facts,
       "object", "what the host says itself: names and certainties from -1 to 1; it goes before what is perceived"},
     Field<Draft>{"readings", read_readings,
-      "object", "of sensors of the knowledge base's own: numbers in the unit of the sensor, texts, lists of arrays; null: silent"},
+      "object", "of sensors that only the knowledge base knows: numbers in m, s, m/s, deg, deg/s or without a unit, texts, lists of arrays; null: silent"},
     Field<Draft>{"vehicle", [](Reading& reading, const Json& json, Draft& draft) { read_vehicle(reading, json, draft.line.vehicle); },
       "object", "of who drives by --orders: battery in percent, charging, field_violation; e_stop: NONE, AUTOACK, MANUAL or REMOTE; mode: AUTOMATIC, SEMIAUTOMATIC, MANUAL, SERVICE or TEACHIN"},
     Field<Draft>{"actions", [](Reading& reading, const Json& json, Draft& draft) { read_actions(reading, json, draft.line.actions); },
@@ -168,6 +171,10 @@ std::variant<Line, Mistake> read_line(std::string_view text) {
   if (senses.odometry_known && !draft.x) senses.x_m = senses.y_m = std::numeric_limits<float>::quiet_NaN();   // then the speed is used: see mts::Odometer
   draft.line.t_us = std::llround(draft.t_s * 1e6);
   return std::move(draft.line);
+}
+
+Mistake no_such(std::string_view kind, const Name& name, std::string field, std::optional<std::string> better) {
+  return {diagnostics::Kind::kWireUnknownName, {std::string(kind), source::printable(name.text), {}}, std::move(field), name.at, std::move(better)};
 }
 
 std::vector<FieldHelp> line_fields() {

@@ -57,6 +57,9 @@ struct Line {
 /// A line that was understood, with its answer in the field `answered`, which replaces any that it had. The form of recordings.
 [[nodiscard]] std::string with_answer(std::string_view line, std::string_view answer);
 
+/// The mistake of a name that nothing has: "there is no fact `Fier`". `better`: what was probably meant.
+[[nodiscard]] Mistake no_such(std::string_view kind, const Name& name, std::string field, std::optional<std::string> better);
+
 /// The names and meanings of the fields, for `kbc drive --describe`.
 struct FieldHelp { std::string_view name, unit, about; };
 [[nodiscard]] std::vector<FieldHelp> line_fields();

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "compiler/source/utf8.h"
-
 namespace kb::wire {
 
 using diagnostics::Kind;
@@ -42,44 +39,52 @@ std::string_view OwnSensors::field_of(std::uint32_t reading) const {
   return {};
 }
 
-std::vector<const program::Sensor*> OwnSensors::sensors() const {
-  std::vector<const program::Sensor*> sensors;
+std::vector<OwnSensors::Sensor> OwnSensors::sensors() const {
+  std::vector<Sensor> sensors;
   for (const program::Sensor& sensor : knowledge_.program->perception.sensors) {
-    if (field_of(sensor.first + sensor.count - 1).empty()) sensors.push_back(&sensor);   // the robot's elements are the first ones
+    std::uint32_t from = 0;
+    while (from < sensor.count && !field_of(sensor.first + from).empty()) ++from;
+    if (from < sensor.count) sensors.push_back({&sensor, from});
   }
   return sensors;
-}
-
-Mistake OwnSensors::unknown(const Line::Measured& one) const {
-  std::vector<std::string_view> names;
-  for (const auto& [name, place] : places_) names.push_back(name);
-  return {Kind::kWireUnknownName, {"sensor", source::printable(one.sensor.text), {}}, "readings", one.sensor.at, diagnostics::closest(one.sensor.text, names)};
 }
 
 std::optional<Mistake> OwnSensors::look_up(const std::vector<Line::Measured>& measured, std::vector<Heard>& heard) const {
   heard.clear();
   for (const Line::Measured& one : measured) {
     const auto place = places_.find(one.sensor.text);
-    if (place == places_.end()) return unknown(one);
+    if (place == places_.end()) {
+      std::vector<std::string_view> names;
+      for (const auto& [name, at] : places_) names.push_back(name);
+      return no_such("sensor", one.sensor, "readings", diagnostics::closest(one.sensor.text, names));
+    }
     if (auto mistake = look_up(one, place->second, heard)) return mistake;
+  }
+  std::vector<bool> seen(knowledge_.program->perception.readings());
+  for (const Heard& one : heard) {   // an array, and one of its elements beside it
+    const std::string field = "readings." + knowledge_.program->perception.reading_name(one.reading);
+    if (seen[one.reading]) return Mistake{Kind::kWireTwice, {field, {}, {}}, field, measured.back().sensor.at};
+    seen[one.reading] = true;
   }
   return std::nullopt;
 }
 
 std::optional<Mistake> OwnSensors::look_up(const Line::Measured& one, const Place& place, std::vector<Heard>& heard) const {
+  const program::Perception& perception = knowledge_.program->perception;
   const std::string field = "readings." + one.sensor.text;
-  const bool text = knowledge_.program->perception.sensor_of(place.first).text;
-  const auto wrong = [&](std::string is, std::string wanted) { return Mistake{Kind::kWireType, {field, std::move(is), std::move(wanted)}, field, one.sensor.at}; };
-  if (one.list != place.list || one.values.size() != place.count) {
-    return wrong(one.list ? fmt::format("a list of {}", one.values.size()) : "one value", place.list ? fmt::format("a list of {}", place.count) : "one value");
+  const bool text = perception.sensor_of(place.first).text, silent = !one.list && std::holds_alternative<std::monostate>(one.values.front());
+  const auto wrong = [&](std::string at, std::string is, std::string wanted) { return Mistake{Kind::kWireType, {at, std::move(is), std::move(wanted)}, at, one.sensor.at}; };
+  if (!silent && (one.list != place.list || one.values.size() != place.count)) {
+    return wrong(field, one.list ? fmt::format("a list of {}", one.values.size()) : "one value", place.list ? fmt::format("a list of {}", place.count) : "one value");
   }
   for (std::uint32_t i = 0; i < place.count; ++i) {
-    const Line::Value& value = one.values[i];
+    const Line::Value& value = one.values[silent ? 0 : i];
+    const bool says = !std::holds_alternative<std::monostate>(value), is_text = std::holds_alternative<std::string>(value);
     if (const std::string_view other = field_of(place.first + i); !other.empty()) {
-      return Mistake{Kind::kWireOtherField, {knowledge_.program->perception.reading_name(place.first + i), std::string(other), {}}, field, one.sensor.at};
+      if (!says && place.list) continue;   // the robot has this element itself
+      return Mistake{Kind::kWireOtherField, {perception.reading_name(place.first + i), std::string(other), {}}, field, one.sensor.at};
     }
-    const bool is_text = std::holds_alternative<std::string>(value);
-    if (is_text != text && !std::holds_alternative<std::monostate>(value)) return wrong(is_text ? "a string" : "a number", text ? "a string" : "a number");
+    if (says && is_text != text) return wrong(place.list ? fmt::format("{}[{}]", field, i) : field, is_text ? "a string" : "a number", text ? "a string" : "a number");
     heard.push_back({place.first + i, value});
   }
   return std::nullopt;

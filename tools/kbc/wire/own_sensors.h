@@ -26,14 +26,15 @@ class OwnSensors {
   };
   /// Looks up what a line has measured; returns the first mistake.
   [[nodiscard]] std::optional<Mistake> look_up(const std::vector<Line::Measured>& measured, std::vector<Heard>& heard) const;
-  /// The sensors of which the host gives at least one element, in order of declaration.
-  [[nodiscard]] std::vector<const program::Sensor*> sensors() const;
+  /// A sensor of which the host gives the elements from `from` on: the robot has those before.
+  struct Sensor { const program::Sensor* sensor = nullptr; std::uint32_t from = 0; };
+  /// In order of declaration.
+  [[nodiscard]] std::vector<Sensor> sensors() const;
 
  private:
   struct Place { std::uint32_t first = 0, count = 1; bool list = false; };
   [[nodiscard]] std::optional<Mistake> look_up(const Line::Measured& one, const Place& place, std::vector<Heard>& heard) const;
   [[nodiscard]] std::string_view field_of(std::uint32_t reading) const;
-  [[nodiscard]] Mistake unknown(const Line::Measured& one) const;
 
   const sim::Knowledge& knowledge_;
   std::map<std::string, Place, std::less<>> places_;   // of elements and of arrays, by name
