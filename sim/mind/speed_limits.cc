@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace kb::sim {
 namespace {
@@ -30,8 +31,10 @@ SpeedLimits limits_of(const model::Model& model) {
     for (const model::MapRoad& road : map.roads) {
       if (road.limit_m_per_s <= 0.0f) continue;
       const model::Row& row = model[road.row];
-      limits.add({model.row_in(row, "from")->name, model.member_in(row, "exit")}, road.limit_m_per_s);
-      limits.add({model.row_in(row, "to")->name, model.member_in(row, "approach")}, road.limit_m_per_s);
+      for (const auto& [landmark, side] : {std::pair("from", "exit"), std::pair("to", "approach")}) {
+        const model::Row* end = model.row_in(row, landmark);   // a library of the user's own may do without
+        if (end != nullptr) limits.add({end->name, model.member_in(row, side)}, road.limit_m_per_s);
+      }
     }
   }
   return limits;

@@ -35,6 +35,17 @@ Picture::Kind kind_of(std::string_view method) {
   return Picture::Kind::kOpen;
 }
 
+/// Whether its rows say where roads begin and end: a relation of the user's own may lack that.
+bool has_ends(const model::Relation& road, Diagnostics& diagnostics) {
+  bool all = true;
+  for (const std::string_view field : {"from", "to", "exit", "approach"}) {
+    if (std::find(road.fields.begin(), road.fields.end(), field) != road.fields.end()) continue;
+    diagnostics.report(Kind::kSimRoadField, road.declared, {field});
+    all = false;
+  }
+  return all;
+}
+
 void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out) {
   const auto crossing_of = [&](const model::Row& row, std::string_view name) {
     const auto* id = std::get_if<model::RowId>(model.field(row, name));
@@ -154,6 +165,7 @@ std::optional<Labyrinth> read_map(const model::Model& model, double size, Diagno
     diagnostics.report(Kind::kSimNoMap, {});
     return std::nullopt;
   }
+  for (const model::Relation& relation : model.relations) whole = (relation.name != "Road" || has_ends(relation, diagnostics)) && whole;
   if (!whole) return std::nullopt;
   for (const model::Map& map : model.maps) read_roads(model, map, out);
   return out;
