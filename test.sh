@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing and runs every test of the project. On a fresh Debian 12, as root or with sudo, nothing else is
-# needed. 17 to 25 minutes on two cores, depending on the machine.
+# needed. 14 to 25 minutes on two cores, depending on the machine.
 #
 #   ./test.sh                 all steps, those that fail fast first
 #   ./test.sh checks demo     only these; what they need must have been built
