@@ -1,8 +1,9 @@
 // How fast the roads of a map may be driven.
 //
 // note [where a limit holds]
-// A limit holds from landmark to landmark, whatever strategy drives. In a crossing the lower one holds of the road by which the robot came
-// and of that by which it leaves. A robot that does not know on which road it is keeps to the lowest limit of all.
+// A limit holds from landmark to landmark, whatever strategy drives. Once the robot drives through a crossing, the lower one holds of the road
+// by which it came and of that by which it leaves. A robot that does not know on which road it is keeps to the lowest limit of all. If it takes
+// another knowledge base, such as the next part of an order, the limit of its present road stays until it has left that road.
 #pragma once
 
 #include <limits>
