@@ -207,14 +207,14 @@ void emit_limits(const CppInput& in, std::string& out) {
   out += "  };\n  static constexpr float kLimits[] = {";
   for (const program::LegLimit& limit : in.program.limits) fmt::format_to(Out(out), "{}{}", &limit == in.program.limits.data() ? "" : ", ", float_literal(limit.limit_m_per_s));
   fmt::format_to(Out(out),
-      "}};\n"
-      "  float lowest = std::numeric_limits<float>::infinity();\n"
-      "  for (unsigned i = 0; i != {}; ++i) {{\n"
-      "    if (kLimits[i] < lowest && mind.high(kLegs[i])) lowest = kLimits[i];\n"
-      "  }}\n", in.program.limits.size());
-  out +=
-      "  return lowest;\n"
-      "}\n\n";
+                 "}};\n"
+                 "  float lowest = std::numeric_limits<float>::infinity();\n"
+                 "  for (unsigned i = 0; i != {}; ++i) {{\n"
+                 "    if (kLimits[i] < lowest && mind.high(kLegs[i])) lowest = kLimits[i];\n"
+                 "  }}\n"
+                 "  return lowest;\n"
+                 "}}\n\n",
+                 in.program.limits.size());
 }
 
 }  // namespace kb::emit

@@ -24,8 +24,10 @@ mts::Motion Driver::hear(const mts::Senses& senses, const TagHeard& tag, float p
 
 /// The limits of its knowledge, and until it leaves a road also those that held there when it took that knowledge.
 float Driver::limit_m_s() {
-  const auto here = perception_.came_by();
-  if (!kept_.empty() && (!here || std::isinf(kept_.at(*here)))) kept_ = SpeedLimits();
+  if (!kept_.empty()) {
+    const auto here = perception_.came_by();
+    if (!here || std::isinf(kept_.at(*here))) kept_ = SpeedLimits();
+  }
   return std::min(perception_.limit_m_s(knowledge_->limits), kept_.lowest());
 }
 

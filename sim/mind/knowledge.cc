@@ -252,12 +252,16 @@ program::CellId Knowledge::find(std::string_view cell) const {
   return program::CellId::kNone;
 }
 
+std::uint32_t elements_of_robot(const Knowledge& knowledge, const program::Sensor& sensor) {
+  const auto feed = std::find_if(knowledge.feeds.begin(), knowledge.feeds.end(), [&](const SensorFeed& one) { return one.first == sensor.first; });
+  return feed == knowledge.feeds.end() ? 0 : feed->count;
+}
+
 void report_lacking_sensors(const Knowledge& knowledge, Diagnostics& diagnostics) {
   const std::string all = fmt::format("`line[0]` to `line[{}]`, `range[0]` to `range[{}]`, `compass` and `speed`, and of texts `tag` and `memory`",
                                       mts::kLineSensors - 1, mts::kRangeFinders - 1);
   for (const program::Sensor& sensor : knowledge.program->perception.sensors) {
-    const auto feed = std::find_if(knowledge.feeds.begin(), knowledge.feeds.end(), [&](const SensorFeed& one) { return one.first == sensor.first; });
-    const std::uint32_t has = feed == knowledge.feeds.end() ? 0 : feed->count;
+    const std::uint32_t has = elements_of_robot(knowledge, sensor);
     if (has == sensor.count) continue;
     const std::string lacking = has == 0 ? fmt::format("sensor `{}`{}", sensor.name, sensor.text ? " of texts" : "") : fmt::format("`{}[{}]`", sensor.name, has);
     diagnostics.report(Kind::kSimNoSensor, sensor.declared, {lacking, all});

@@ -102,6 +102,9 @@ struct Knowledge {
                                                diagnostics::Diagnostics& diagnostics, model::StandardNames* library = nullptr,
                                                const std::vector<std::string>* stubs = nullptr);
 
+/// How many elements of a sensor, the first ones, the robot has itself: see Knowledge::feeds.
+[[nodiscard]] std::uint32_t elements_of_robot(const Knowledge& knowledge, const program::Sensor& sensor);
+
 /// Warns of sensors, or elements of arrays, that the simulated robot does not have.
 void report_lacking_sensors(const Knowledge& knowledge, diagnostics::Diagnostics& diagnostics);
 

@@ -28,8 +28,10 @@ float SpeedLimits::at(const RoadEnd& end) const {
 SpeedLimits limits_of(const model::Model& model) {
   SpeedLimits limits;
   for (const model::Map& map : model.maps) {
-    for (const model::MapRoad& road : map.roads) {
-      if (road.limit_m_per_s <= 0.0f) continue;
+    for (std::size_t i = 0; i < map.roads.size(); ++i) {
+      const model::MapRoad& road = map.roads[i];
+      const bool way_back = i > 0 && map.roads[i - 1].road == road.road;   // its ends are the same
+      if (road.limit_m_per_s <= 0.0f || way_back) continue;
       const model::Row& row = model[road.row];
       for (const auto& [landmark, side] : {std::pair("from", "exit"), std::pair("to", "approach")}) {
         const model::Row* end = model.row_in(row, landmark);   // a library of the user's own may do without

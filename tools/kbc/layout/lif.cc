@@ -73,17 +73,24 @@ class LifReader {
     return nullptr;
   }
 
-  // Reports an edge that several types of vehicles drive by different trajectories.
-  void note_other_trajectories(const Json& edge, const Json& taken, source::Span at) {
-    const Json* ours = taken.find("trajectory");
+  // The properties of an edge for each type of vehicle, in either version's list.
+  static std::vector<const Json*> of_all_types(const Json& edge) {
+    std::vector<const Json*> all;
     for (const std::string_view key : {"vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"}) {
       const Json* list = edge.find(key);
       if (list == nullptr) continue;
-      for (const Json& one : list->parts) {
-        const Json* other = one.find("trajectory");
-        if ((ours == nullptr) == (other == nullptr) && (ours == nullptr || *ours == *other)) continue;
-        return adaptations_.note("edge that types of vehicles drive by different trajectories: as the first one does; see --vehicle", at);
-      }
+      for (const Json& one : list->parts) all.push_back(&one);
+    }
+    return all;
+  }
+
+  // Reports an edge that several types of vehicles drive by different trajectories.
+  void note_other_trajectories(const Json& edge, const Json& taken, source::Span at) {
+    const Json* ours = taken.find("trajectory");
+    for (const Json* one : of_all_types(edge)) {
+      const Json* other = one->find("trajectory");
+      if ((ours == nullptr) == (other == nullptr) && (ours == nullptr || *ours == *other)) continue;
+      return adaptations_.note("edge that types of vehicles drive by different trajectories: as the first one does; see --vehicle", at);
     }
   }
 
@@ -96,14 +103,10 @@ class LifReader {
     double lowest = limit(taken);
     if (!choice_.vehicle.empty()) return lowest;
     bool differ = false;
-    for (const std::string_view key : {"vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"}) {
-      const Json* list = edge.find(key);
-      if (list == nullptr) continue;
-      for (const Json& one : list->parts) {
-        const double other = limit(one);
-        differ = differ || other != limit(taken);
-        if (other == 0.0 || layout::may_drive(other)) lowest = lower_limit(lowest, other);
-      }
+    for (const Json* one : of_all_types(edge)) {
+      const double other = limit(*one);
+      differ = differ || other != limit(taken);
+      if (other == 0.0 || layout::may_drive(other)) lowest = lower_limit(lowest, other);
     }
     if (differ) adaptations_.note("edge that types of vehicles may drive at different speeds: at the lowest; see --vehicle", id.span);
     return lowest;

@@ -42,8 +42,7 @@ std::string_view OwnSensors::field_of(std::uint32_t reading) const {
 std::vector<OwnSensors::Sensor> OwnSensors::sensors() const {
   std::vector<Sensor> sensors;
   for (const program::Sensor& sensor : knowledge_.program->perception.sensors) {
-    std::uint32_t from = 0;
-    while (from < sensor.count && !field_of(sensor.first + from).empty()) ++from;
+    const std::uint32_t from = sim::elements_of_robot(knowledge_, sensor);
     if (from < sensor.count) sensors.push_back({&sensor, from});
   }
   return sensors;
@@ -51,6 +50,7 @@ std::vector<OwnSensors::Sensor> OwnSensors::sensors() const {
 
 std::optional<Mistake> OwnSensors::look_up(const std::vector<Line::Measured>& measured, std::vector<Heard>& heard) const {
   heard.clear();
+  if (measured.empty()) return std::nullopt;
   for (const Line::Measured& one : measured) {
     const auto place = places_.find(one.sensor.text);
     if (place == places_.end()) {
