@@ -10,12 +10,16 @@
             tag     std_msgs/String                   "LM5 W" on a tag of the map (another one would stop the robot), "" while the reader
                                                       works and reads nothing
             press   std_msgs/String                   a button: "Start1", "Abort", "Resume"
+            facts   std_msgs/String                   certainties of facts, JSON: {"Fire": 0.8}; they hold until the next message, or silence
+            readings std_msgs/String                  of sensors that the knowledge base declares, JSON: {"load": 12.5}
     says    cmd_vel geometry_msgs/Twist               at 50 Hz
             reports std_msgs/String                   "Help.lost", when it changes
+            outputs std_msgs/String                   satellites that are outputs and high, "Call_lift, Lamp", when that changes
 
 Each sensor has to speak twice a second at least, whatever it has to say: one that does not is left out, and the robot stands where it needs it.
 The base has to stop by itself when it has heard no cmd_vel for 0.2 s.
 """
+import json
 import sys
 import time
 
@@ -54,6 +58,18 @@ def of_tag(tag):
     return {"tag": {"landmark": words[0], "exit": words[1]} if len(words) == 2 else {}}
 
 
+def of_facts(facts):
+    return {"facts": named_values(facts)}
+
+
+def named_values(text):
+    """Of a message, which may be anything: ValueError unless it is a JSON object."""
+    values = json.loads(text.data)
+    if not isinstance(values, dict):
+        raise ValueError("not a JSON object")
+    return values
+
+
 SENSORS = (
     (LaserScan, "scan", of_scan),
     (Odometry, "odom", of_odometry),
@@ -61,7 +77,9 @@ SENSORS = (
     (Float32MultiArray, "line", lambda line: {"line": list(line.data)}),
     (Bool, "bumper", lambda bumper: {"touched": bumper.data}),
     (String, "tag", of_tag),
+    (String, "facts", of_facts),
 )
+SAID = ("reports", "outputs")   # as a text, when it changes
 
 
 class Head(Node):
@@ -70,18 +88,32 @@ class Head(Node):
         self.mind = Mind(*arguments)
         self.heard = {}        # topic: when, and the fields that it fills
         self.pressed = {}      # button: when
-        self.told = []
+        self.readings = {}     # since the last line: each counts until it is replaced or stale, so it is said once
+        self.told = {topic: [] for topic in SAID}
         for kind, topic, fields_of in SENSORS:
             self.create_subscription(kind, topic, self.hear(topic, fields_of), qos_profile_sensor_data)
         self.create_subscription(String, "press", lambda press: self.pressed.update({press.data: time.monotonic()}), 10)
+        self.create_subscription(String, "readings", self.take_readings, qos_profile_sensor_data)
         self.wheels = self.create_publisher(Twist, "cmd_vel", 1)
-        self.reports = self.create_publisher(String, "reports", 10)
+        self.publishers_of = {topic: self.create_publisher(String, topic, 10) for topic in SAID}
         self.timer = self.create_timer(PERIOD_S, self.step)
 
     def hear(self, topic, fields_of):
         def take(message):
-            self.heard[topic] = (time.monotonic(), fields_of(message))
+            try:
+                self.heard[topic] = (time.monotonic(), fields_of(message))
+            except ValueError as wrong:
+                self.complain(f"{topic}: {wrong}")
         return take
+
+    def take_readings(self, message):
+        try:
+            self.readings.update(named_values(message))
+        except ValueError as wrong:
+            self.complain(f"readings: {wrong}")
+
+    def complain(self, text):
+        self.get_logger().error(text, throttle_duration_sec=1.0)
 
     def senses(self, now):
         """Of a clock that is never set back, and without what is old."""
@@ -89,16 +121,18 @@ class Head(Node):
         for when, fields in self.heard.values():
             if now - when < SILENT_AFTER_S:
                 senses.update(fields)
+        senses["readings"], self.readings = self.readings, {}
         senses["buttons"] = [button for button, when in self.pressed.items() if now - when < PRESSED_S]
         return senses
 
     def step(self):
         answer = self.mind.step(self.senses(time.monotonic())) or STAND
         if "error" in answer:
-            self.get_logger().error(answer["error"]["message"], throttle_duration_sec=1.0)
-        if answer.get("reports", self.told) != self.told:
-            self.told = answer["reports"]
-            self.reports.publish(String(data=", ".join(self.told)))
+            self.complain(answer["error"]["message"])
+        for topic, before in self.told.items():
+            if answer.get(topic, before) != before:
+                self.told[topic] = answer[topic]
+                self.publishers_of[topic].publish(String(data=", ".join(answer[topic])))
         self.drive(answer)
 
     def drive(self, answer):

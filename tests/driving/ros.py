@@ -4,7 +4,9 @@
   ros.py EXAMPLE
 """
 import math
+import os
 import sys
+import tempfile
 import types
 
 sys.dont_write_bytecode = True
@@ -61,14 +63,15 @@ def quaternion(yaw_rad):
     return Message(x=0.0, y=0.0, z=math.sin(yaw_rad / 2), w=math.cos(yaw_rad / 2))
 
 
-def drive(head, seconds, silent=()):
-    """What the robot's drivers say, and the node's timer. The last command of the wheels."""
+def drive(head, seconds, silent=(), **more):
+    """What the robot's drivers say, `more` among it, and the node's timer. The last command of the wheels."""
     global now
     odometry = Message()
     odometry.pose.pose = Message(position=Message(x=0.0, y=0.0), orientation=quaternion(0.0))
     odometry.twist.twist.linear.x = 0.0
     said = {'scan': Message(ranges=[math.inf] * 360, angle_min=-math.pi, angle_increment=math.pi / 180), 'odom': odometry, 'imu': Message(orientation=quaternion(0.0)),
             'line': Message(data=[0.1, 0.1, 0.9, 0.1, 0.1]), 'bumper': Message(data=False), 'tag': Message(data='')}
+    said |= {topic: Message(data=text) for topic, text in more.items()}
     for _ in range(round(seconds / 0.02)):
         now += 0.02
         for topic, message in said.items():
@@ -78,7 +81,19 @@ def drive(head, seconds, silent=()):
     return head.said['cmd_vel'][-1]
 
 
-head = ros2_node.Head(sys.argv[1] + '/track.kb')
+lift = os.path.join(tempfile.mkdtemp(), 'lift.kb')   # the track for a robot with a scale
+with open(sys.argv[1] + '/track.kb', encoding='utf-8') as track, open(lift, 'w', encoding='utf-8') as written:
+    written.write(track.read() + """
+sensor load 0..50 noise 0.5 stale 60 s
+fact Heavy = load ~ ramp(5, 10)
+fact Fire
+satellite Lamp, Alarm output
+rule shine at control while seen Heavy then +Lamp
+rule alarm at control while seen Fire then +Alarm
+rule fade at control while not seen Heavy and Lamp then -Lamp
+rule calm at control while not seen Fire and Alarm then -Alarm
+""")
+head = ros2_node.Head(lift)
 assert drive(head, 1.0).linear.x == 0.0, 'nobody has pressed anything'
 head.topics['press'](Message(data='Go'))
 wheels = drive(head, 1.0)
@@ -86,7 +101,17 @@ assert wheels.linear.x > 0.1 and abs(wheels.angular.z) < 0.1, wheels
 assert drive(head, 0.4, silent=['line']).linear.x > 0.1, 'a sensor may miss a message'
 assert drive(head, 1.0, silent=['line']).linear.x == 0.0 and head.said['reports'][-1].data == 'Help.no_line', head.said['reports']
 assert drive(head, 1.0, silent=['scan']).linear.x == 0.0 and 'Help.no_ranges' in head.said['reports'][-1].data, head.said['reports']
+head.topics['readings'](Message(data='{"load": 30}'))
+drive(head, 1.0, facts='{"Fire": 0.9}')
+assert set(head.said['outputs'][-1].data.split(', ')) == {'Lamp', 'Alarm'}, head.said['outputs']
+drive(head, 0.7)
+assert head.said['outputs'][-1].data == 'Lamp', 'a fact is over with its topic, a reading is not'
+head.topics['readings'](Message(data='{"load": 0}'))
+drive(head, 0.2)
+assert head.said['outputs'][-1].data == '', head.said['outputs']
 assert not head.logged, head.logged
+drive(head, 0.1, facts='[0.9]', readings='{"load"')
+assert [text.split(':')[0] for text in head.logged[-2:]] == ['facts', 'readings'], head.logged
 head.topics['press'](Message(data='Gо'))   # with a letter that only looks like the o
 drive(head, 0.1)
 assert head.logged and head.said['cmd_vel'][-1].linear.x == 0.0
