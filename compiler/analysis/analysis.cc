@@ -25,6 +25,7 @@ void diagnose(const model::Model& model, const program::Program& program, const 
   diagnose_look_alikes(subject);
   diagnose_cells(subject);
   diagnose_strategies(subject);
+  diagnose_circles(subject);
   diagnose_arguments(subject, known);
   diagnose_lasting(subject);
   diagnose_priority(subject);

@@ -122,7 +122,7 @@ class CellQuestions {
   [[nodiscard]] bool never_changes(CellId cell) const {
     const auto firing = static_cast<float>(program_.settings.firing);
     const Cell& satellite = program_[cell];
-    const bool fixed = subject_.domains.cells[program::index(cell)] == region_of(satellite.initial, firing);
+    const bool fixed = subject_.written.cells[program::index(cell)] == region_of(satellite.initial, firing);
     const bool on_purpose = attending_[program::index(cell)] && satellite.initial >= firing;
     return fixed && !on_purpose;
   }
@@ -233,7 +233,7 @@ class CellQuestions {
 bool never_wanted(const Subject& subject, CellId strategy) {
   const Program& program = subject.program;
   const bool idle = program.settings.idle == program::Idle::kStrategy && program.settings.idle_strategy == strategy;
-  return !idle && !can_be_high(subject.domains, strategy);
+  return !idle && !can_be_high(subject.written, strategy);
 }
 
 std::string strategy_names(const Program& program, const std::vector<CellId>& strategies) {

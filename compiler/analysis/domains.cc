@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
 namespace {
@@ -54,25 +53,93 @@ struct Range {
   }
 };
 
-std::vector<Range> written_ranges(const Program& program) {
-  std::vector<Range> ranges(program.cells.size());
-  std::vector<bool> cleared(program.exclusive.size(), false);
-  bool resets = false;
-  for (const Rule& rule : program.rules) {
-    for (const program::Write& write : rule.writes) ranges[program::index(write.cell)].add(write.value);
-    for (const std::uint32_t group : rule.clears) cleared[group] = true;
-    resets = resets || rule.reset;
+/// Finds the regions that cells can reach: see note [reached regions] in domains.h.
+class Reach {
+ public:
+  /// `all`: whether every rule counts as one that can fire.
+  explicit Reach(const Program& program, bool all = false)
+      : program_(program), all_(all), firing_(static_cast<float>(program.settings.firing)), intervals_(firing_), domains_(widest_domains(program)),
+        written_(program.cells.size()), cleared_(program.exclusive.size(), false) {
+    const bool resets = std::any_of(program.rules.begin(), program.rules.end(), [](const Rule& rule) { return rule.reset; });
+    for (std::size_t i = 0; i < program.cells.size(); ++i) {
+      const program::Cell& cell = program.cells[i];
+      if (cell.kind != CellKind::kSatellite) continue;
+      domains_.cells[i] = region_of(cell.initial, firing_);
+      if (resets && !cell.keep) written_[i].add(cell.initial);
+    }
   }
-  for (std::size_t group = 0; group < program.exclusive.size(); ++group) {
-    if (!cleared[group]) continue;
-    for (const CellId member : program.exclusive[group]) ranges[program::index(member)].add(-1.0f);
+
+  Domains run() {
+    std::vector<const Rule*> waiting;
+    waiting.reserve(program_.rules.size());
+    for (const Rule& rule : program_.rules) waiting.push_back(&rule);
+    const auto fires = [this](const Rule* rule) {
+      const bool can = all_ || steps_ > kMostSteps || can_be(rule->condition, true);
+      if (can) take(*rule);
+      return can;
+    };
+    while (std::erase_if(waiting, fires) > 0) {}
+    // Only `run[...]` writes a strategy, if one of its satellites is high. The strategy that runs because of `idle` is not written.
+    for (std::uint32_t i = 0; i < program_.cells.size(); ++i) {
+      if (program_.cells[i].kind == CellKind::kStrategy) domains_.cells[i] = regions(CellId{i});
+    }
+    return std::move(domains_);
   }
-  for (std::size_t i = 0; resets && i < program.cells.size(); ++i) {
-    const program::Cell& cell = program.cells[i];
-    if (cell.kind == CellKind::kSatellite && !cell.keep) ranges[i].add(cell.initial);
+
+ private:
+  static constexpr std::uint64_t kMostSteps = 50'000'000;
+  static constexpr std::size_t kMostParts = 64;   // a longer condition, such as `no` over a large group, stands in many rules
+
+  [[nodiscard]] Regions regions(CellId cell) const {
+    const bool idle = program_[cell].kind == CellKind::kStrategy && !attended_at_times(program_, domains_, cell);
+    return idle ? region_of(-1.0f, firing_) : domains_.cells[program::index(cell)];
   }
-  return ranges;
-}
+
+  /// Whether the condition can be `wanted`, as far as its cells tell one by one. Recursion as deep as conditions nest, which is limited.
+  bool can_be(program::CondId id, bool wanted) {
+    using Op = program::Cond::Op;
+    const program::Cond& cond = program_[id];
+    ++steps_;
+    const auto part_can = [&](program::CondId part) { return can_be(part, wanted); };
+    switch (cond.op) {
+      case Op::kNot: return can_be(cond.children.front(), !wanted);
+      case Op::kAnd:
+      case Op::kOr:
+        if (cond.children.size() > kMostParts) return true;
+        return (cond.op == Op::kAnd) == wanted ? std::all_of(cond.children.begin(), cond.children.end(), part_can)
+                                               : std::any_of(cond.children.begin(), cond.children.end(), part_can);
+      case Op::kFor: return !wanted || can_be(cond.children.front(), true);
+      case Op::kIs: return (regions(cond.cell) & (wanted ? regions_of(cond.term) : static_cast<Regions>(~regions_of(cond.term)))) != 0;
+      default: return !wanted || domains_.facts[program::index(cond.cell)] != kUnseen;
+    }
+  }
+
+  void take(const Rule& rule) {
+    for (const program::Write& write : rule.writes) add(write.cell, write.value);
+    for (const std::uint32_t group : rule.clears) {
+      if (cleared_[group]) continue;
+      cleared_[group] = true;
+      for (const CellId member : program_.exclusive[group]) add(member, -1.0f);
+    }
+  }
+
+  void add(CellId cell, float value) {
+    const std::size_t i = program::index(cell);
+    Range& range = written_[i];
+    if (program_[cell].kind != CellKind::kSatellite || (range.least <= value && value <= range.most)) return;
+    range.add(value);
+    domains_.cells[i] = static_cast<Regions>(region_of(program_[cell].initial, firing_) | intervals_.between(range.least, range.most));
+  }
+
+  const Program& program_;
+  bool all_;
+  float firing_;
+  Intervals intervals_;
+  Domains domains_;               // strategies: as if each were wanted at times, until the end
+  std::vector<Range> written_;    // by cell
+  std::vector<bool> cleared_;     // by group
+  std::uint64_t steps_ = 0;
+};
 
 }  // namespace
 
@@ -121,25 +188,8 @@ Domains widest_domains(const Program& program) {
   return domains;
 }
 
-Domains find_domains(const Program& program) {
-  const auto firing = static_cast<float>(program.settings.firing);
-  Domains domains = widest_domains(program);
-  Intervals intervals(firing);
-  const std::vector<Range> ranges = written_ranges(program);
-  for (std::size_t i = 0; i < program.cells.size(); ++i) {
-    if (program.cells[i].kind != CellKind::kSatellite) continue;
-    Regions regions = region_of(program.cells[i].initial, firing);
-    if (ranges[i].least <= ranges[i].most) {
-      regions = static_cast<Regions>(regions | intervals.between(ranges[i].least, ranges[i].most));
-    }
-    domains.cells[i] = regions;
-  }
-  // Only `run[...]` writes a strategy, if one of its satellites is high. The strategy that runs because of `idle` is not written.
-  for (std::size_t i = 0; i < program.cells.size(); ++i) {
-    if (program.cells[i].kind != CellKind::kStrategy) continue;
-    if (!attended_at_times(program, domains, CellId{static_cast<std::uint32_t>(i)})) domains.cells[i] = region_of(-1.0f, firing);
-  }
-  return domains;
-}
+Domains find_domains(const Program& program) { return Reach(program).run(); }
+
+Domains written_domains(const Program& program) { return Reach(program, true).run(); }
 
 }  // namespace kb::analysis

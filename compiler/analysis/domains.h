@@ -1,4 +1,10 @@
 // Which values a cell can have: the few regions of [-1, 1] that conditions tell apart, and which of them a cell can reach.
+//
+// note [reached regions]
+// A satellite has its initial value, and what is written by rules that can fire. A rule can fire if its condition can hold, and that depends
+// on what satellites can be. So regions grow from those of start-up, rule by rule, until nothing is added; of rules that wait for each other
+// none is ever reached. What is left out only makes the answer wider: conditions are looked at cell by cell, long ones not at all,
+// and after some millions of steps every rule counts as one that can fire.
 #pragma once
 
 #include <cstdint>
@@ -39,10 +45,12 @@ struct Domains {
   std::vector<Regions> when_unseen;  ///< ... and while it is not seen
 };
 
-/// The regions that each cell can reach. A satellite can have its initial value, the values that rules write, and, if these
-/// differ, anything between them (rules that contradict each other blend). A strategy runs only if one
+/// The regions that each cell can reach: see note [reached regions]. A satellite can have its initial value, the values that rules write that
+/// can fire, and, if these differ, anything between them (rules that contradict each other blend). A strategy runs only if one
 /// of its satellites can be high. Facts can be anything.
 [[nodiscard]] Domains find_domains(const program::Program& program);
+/// The same if every rule could fire.
+[[nodiscard]] Domains written_domains(const program::Program& program);
 /// The same, but satellites can have any value too: what holds in these domains holds whatever the rules do.
 [[nodiscard]] Domains widest_domains(const program::Program& program);
 

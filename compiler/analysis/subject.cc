@@ -127,7 +127,7 @@ void find_clans(Subject& subject) {
 }  // namespace
 
 Subject study(const model::Model& model, const Program& program, diagnostics::Diagnostics& diagnostics) {
-  Subject subject{model, program, diagnostics, find_domains(program), {}, {}, program::group_of_cells(program), {}, {},
+  Subject subject{model, program, diagnostics, find_domains(program), written_domains(program), {}, {}, program::group_of_cells(program), {}, {},
                   {},    {},      {}, {}};
   subject.reported.assign(program.cells.size(), false);
   find_families(subject);

@@ -32,6 +32,7 @@ struct Subject {
   diagnostics::Diagnostics& diagnostics;
 
   Domains domains;
+  Domains written;                       ///< what cells could be if every rule could fire
   std::vector<std::uint32_t> family;     ///< by rule: the rule as written that it is an instance of
   std::vector<std::uint32_t> instances;  ///< by family: how many
   std::vector<std::uint32_t> group_of;   ///< by cell: its exclusive group
@@ -45,6 +46,11 @@ struct Subject {
   /// Whether a rule asks if the fact is seen, newly seen or lost; whether a rule asks if it is high.
   [[nodiscard]] bool asks_sight(program::CellId fact) const { return (asked[program::index(fact)] & kAsksSight) != 0; }
   [[nodiscard]] bool asks_high(program::CellId cell) const { return (asked[program::index(cell)] & kAsksHigh) != 0; }
+
+  /// Whether rules write other values to the cell than it has from the start, but none of them can fire.
+  [[nodiscard]] bool written_only_in_vain(program::CellId cell) const {
+    return domains.cells[program::index(cell)] != written.cells[program::index(cell)] && domains.cells[program::index(cell)] == region_of(program[cell].initial, static_cast<float>(program.settings.firing));
+  }
 
   [[nodiscard]] static bool generated(const program::Rule& rule) { return !rule.span.known(); }
   [[nodiscard]] bool in_library(source::Span span) const {
@@ -96,6 +102,7 @@ struct Demands;
 // The questions, each in a file of its own kind; they report in this order.
 void diagnose_cells(Subject& subject);       ///< cells.cc: never set, read, seen, wanted; thresholds; `keep`
 void diagnose_strategies(Subject& subject);  ///< cells.cc
+void diagnose_circles(Subject& subject);     ///< circles.cc: satellites that are never raised because rules wait for each other
 void diagnose_arguments(const Subject& subject, const KnownArguments& known);   ///< arguments.cc: of `control` lines
 void diagnose_look_alikes(const Subject& subject);   ///< look_alikes.cc: names that a reader takes for one another
 void diagnose_lasting(const Subject& subject);   ///< lasting.cc: strategies wanted for ever that stand before others
