@@ -87,6 +87,7 @@ class Formatter {
   void begin_line();
   [[nodiscard]] bool wants_line(bool after_comment) const;
   [[nodiscard]] bool wants_own_line() const;
+  [[nodiscard]] bool must_stay() const;
   [[nodiscard]] std::uint32_t indent() const;
   [[nodiscard]] Family family() const;
   struct Slot { std::uint16_t number, gap, farthest = 0xFFFF; };
@@ -225,8 +226,13 @@ bool Formatter::table_on_one_line() const {
   return !breaks_between(token().span.begin, tokens_[end].span.begin);
 }
 
+/// Whether the token is a name that would begin a statement if a line began with it.
+bool Formatter::must_stay() const {
+  return token().kind == T::kIdentifier && !token().begins_line && begins_statement(keyword(sources_.text(token().span)));
+}
+
 bool Formatter::wants_line(bool after_comment) const {
-  if (at_ == 0 || after_comment || tokens_[at_].begins_statement || wants_own_line()) return true;
+  if (at_ == 0 || after_comment || tokens_[at_].begins_statement || (wants_own_line() && !must_stay())) return true;
   if (token().kind == T::kLeftBrace) return false;
   return breaks_between(token(1).span.end, token().span.begin);
 }

@@ -164,9 +164,12 @@ bool Preparation::nests_too_deeply(const Token& token) {
 
 // ---- words that are names
 
-// After a word that begins statements, at the beginning of a line: whether its statement follows. Otherwise it is a name in a list.
+// After a word that begins statements, at the beginning of a line: whether its statement follows. Otherwise it is a name where one may stand:
+// in a list, a level (`at route when`), the input of a fuzzy rule (`map is near`).
 bool Preparation::goes_on_as_statement() const {
-  return is_name_or_keyword(kind(1)) || kind(1) == TokenKind::kString;
+  const TokenKind next = kind(1);
+  if (next == TokenKind::kIs || next == TokenKind::kWhen || next == TokenKind::kWhile) return false;
+  return is_name_or_keyword(next) || next == TokenKind::kString;
 }
 
 bool Preparation::stands_for_a_name() const {
