@@ -27,7 +27,7 @@ class CircleQuestions {
       any = any || never_[i];
     }
     if (!any) return;
-    satisfier_.emplace(program_, subject_.domains);
+    satisfier_.emplace(program_, subject_.domains, subject_.confusions.get());
     for (const Clan& clan : subject_.clans) {
       if (clan.indexed && !std::ranges::all_of(clan.cells, [this](CellId cell) { return never(cell); })) continue;
       for (const CellId cell : clan.cells) {

@@ -32,8 +32,8 @@ class ConditionQuestions {
       : subject_(subject),
         program_(subject.program),
         widest_(widest_domains(subject.program)),
-        narrow_satisfier_(subject.program, subject.domains),
-        wide_satisfier_(subject.program, widest_) {}
+        narrow_satisfier_(subject.program, subject.domains, subject.confusions.get()),
+        wide_satisfier_(subject.program, widest_, subject.confusions.get()) {}
 
   void run() {
     diagnose_timers();

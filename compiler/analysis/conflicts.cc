@@ -68,7 +68,7 @@ struct Finding {
 class ConflictQuestions {
  public:
   explicit ConflictQuestions(Subject& subject)
-      : subject_(subject), program_(subject.program), satisfier_(subject.program, subject.domains) {}
+      : subject_(subject), program_(subject.program), satisfier_(subject.program, subject.domains, subject.confusions.get()) {}
 
   void run() {
     contested_.resize(program_.cells.size() + program_.exclusive.size());

@@ -53,9 +53,7 @@ struct Confusions::Impl {
     Best best{asked.least, {}};
     for (const Conjunction& x : a) {
       for (const Conjunction& y : b) {
-        Conjunction both = x;
-        both.insert(both.end(), y.begin(), y.end());
-        Best here = most(std::move(both), Asked{best.degree, asked.enough});
+        Best here = most(joined(x, y), Asked{best.degree, asked.enough});
         if (here.degree > best.degree) best = std::move(here);
         if (best.degree > asked.enough) return best;
       }
@@ -78,6 +76,33 @@ struct Confusions::Impl {
       begin = end;
     }
     return best;
+  }
+
+  bool exclusive(const Definition& a, const Definition& b, double limit) {
+    constexpr std::size_t kMostPairs = 256;
+    constexpr double kRounding = 1e-6;
+    if (a.cut || b.cut || a.terms.size() * b.terms.size() > kMostPairs) return false;
+    const auto [known, fresh] = exclusives.try_emplace({&a, &b, limit});
+    if (!fresh) return known->second;
+    const Asked asked{limit - 1.0 - kRounding, limit - 1.0};
+    const auto apart = [&](Conjunction both) { return torn(both) || most(std::move(both), asked).degree <= asked.least; };
+    return known->second = std::all_of(a.terms.begin(), a.terms.end(), [&](const Conjunction& x) {
+      return std::all_of(b.terms.begin(), b.terms.end(), [&](const Conjunction& y) { return apart(joined(x, y)); });
+    });
+  }
+
+  [[nodiscard]] static Conjunction joined(const Conjunction& x, const Conjunction& y) {
+    Conjunction both = x;
+    both.insert(both.end(), y.begin(), y.end());
+    return both;
+  }
+
+  /// Whether it has a part and its opposite.
+  [[nodiscard]] static bool torn(const Conjunction& all) {
+    return std::any_of(all.begin(), all.end(), [&](Literal opposite) {
+      opposite.negated = !opposite.negated;
+      return std::find(all.begin(), all.end(), opposite) != all.end();
+    });
   }
 
   Best most_of(std::span<const Literal> same, Asked asked) {
@@ -264,6 +289,7 @@ struct Confusions::Impl {
   const Program& program;
   Definitions definitions;
   std::map<std::tuple<const Definition*, const Definition*, double>, Best> compared;   // looked up, never iterated
+  std::map<std::tuple<const Definition*, const Definition*, double>, bool> exclusives;  // looked up, never iterated
   std::map<std::pair<const Definition*, const Definition*>, bool> followed;             // looked up, never iterated
   std::map<std::tuple<std::uint32_t, std::uint32_t, bool, std::uint32_t, bool>, bool> below;   // by sensor and two prototypes
   std::map<std::pair<std::uint32_t, std::uint32_t>, Curve> curves;   // by sensor and prototype
@@ -288,6 +314,11 @@ bool Confusions::special_case(CellId narrow, CellId wide, double seen) {
   if (impl_->definitions.built_on(narrow, wide)) return true;
   if (!impl_->follows(impl_->definitions.of(narrow, false), impl_->definitions.of(wide, false))) return false;
   return impl_->most(impl_->definitions.of(wide, false), impl_->definitions.of(narrow, true), seen).degree > seen;
+}
+
+bool Confusions::exclusive(CellId first, CellId second, double limit) {
+  Definitions& definitions = impl_->definitions;
+  return definitions.place(first) && definitions.place(second) && impl_->exclusive(definitions.of(first, false), definitions.of(second, false), limit);
 }
 
 bool Confusions::looked_into(CellId fact) {

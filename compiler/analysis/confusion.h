@@ -5,6 +5,11 @@
 // facts can have at once can be computed exactly. For each pair of their `and`s, every reading separately takes the value at which
 // the least certain of its parts is most certain; the pair can reach the least of these. Readings are taken as fresh, that is, as
 // wide as the sensor's noise. A fact that the host gives may have any certainty.
+//
+// note [exclusive facts]
+// A reading grows wider with its age. Where it stands at x, a part with membership m(x) is certain by m(x) - 1 at least, and by m(x) at most,
+// however old the reading is: possibility is m(x) at least, necessity m(x) at most. So two facts that at some age both reach a certainty of L
+// can both reach L - 1 when fresh; if they cannot, they are exclusive. So are those of which each pair of `and`s has a part and its opposite.
 #pragma once
 
 #include <memory>
@@ -43,6 +48,9 @@ class Confusions {
   /// Whether `narrow` is a special case of `wide`: its definition speaks of `wide`; or `wide` is never less certain where `narrow` is
   /// likely, and at some readings is seen, above the certainty `seen`, while `narrow` is as certainly not so.
   [[nodiscard]] bool special_case(program::CellId narrow, program::CellId wide, double seen);
+  /// Whether no readings, fresh or old, ever give both facts a certainty of `limit` or more: see note [exclusive facts]. `false` may also mean
+  /// that it is not known. Facts of the host are exclusive with nothing.
+  [[nodiscard]] bool exclusive(program::CellId first, program::CellId second, double limit);
   /// Whether all `and`s of the fact's definition are examined.
   [[nodiscard]] bool looked_into(program::CellId fact);
   /// Whether some reading takes part in both definitions.

@@ -208,7 +208,7 @@ void diagnose_duplicates(Subject& subject) {
 void diagnose_self_defeating(Subject& subject) {
   const Program& program = subject.program;
   const Domains widest = widest_domains(program);
-  Satisfier satisfier(program, widest);
+  Satisfier satisfier(program, widest, subject.confusions.get());
   ByFamily<CellId> found(subject);
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];

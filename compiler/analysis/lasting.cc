@@ -23,7 +23,7 @@ struct Lasting {
 class LastingQuestions {
  public:
   explicit LastingQuestions(const Subject& subject)
-      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), satisfier_(program_, subject.domains),
+      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), satisfier_(program_, subject.domains, subject.confusions.get()),
         lowered_(program_.cells.size(), false), raised_by_clears_(program_.cells.size()), raised_by_resets_(program_.cells.size()),
         dead_(program_.cells.size(), RuleId::kNone), clears_(program_.exclusive.size()) {
     find_strategies();

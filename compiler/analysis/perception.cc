@@ -84,7 +84,8 @@ void diagnose_confusable(const model::Model& model, const Program& program, Conf
 
 /// Reports facts that no reading makes sure enough, mostly because a prototype is narrower than the noise. Of the facts that one
 /// statement defines, only the first is reported.
-void diagnose_never_sure(Subject& subject, Confusions& confusions) {
+void diagnose_never_sure(const Subject& subject) {
+  Confusions& confusions = *subject.confusions;
   const Program& program = subject.program;
   source::Span told;
   for (const program::Perceived& perceived : program.perception.perceived) {
@@ -110,9 +111,8 @@ void diagnose_never_sure(Subject& subject, Confusions& confusions) {
 }  // namespace
 
 void diagnose_perception(Subject& subject) {
-  Confusions confusions(subject.program);
-  diagnose_confusable(subject.model, subject.program, confusions, subject.diagnostics);
-  diagnose_never_sure(subject, confusions);
+  diagnose_confusable(subject.model, subject.program, *subject.confusions, subject.diagnostics);
+  diagnose_never_sure(subject);
 }
 
 }  // namespace kb::analysis

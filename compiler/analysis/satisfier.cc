@@ -47,7 +47,8 @@ std::vector<bool> exclusive_at_all_times(const program::Program& program) {
   return exclusive;
 }
 
-Satisfier::Satisfier(const program::Program& program, const Domains& domains) : program_(program), domains_(domains) {
+Satisfier::Satisfier(const program::Program& program, const Domains& domains, Confusions* confusions)
+    : program_(program), domains_(domains), confusions_(program.perception.perceived.size() > 1 ? confusions : nullptr) {
   values_ = domains.cells;
   values_.insert(values_.end(), domains.facts.begin(), domains.facts.end());
   values_.resize(values_.size() + program.conds.size(), kTimerTrue | kTimerFalse);
@@ -125,6 +126,7 @@ bool Satisfier::narrow(std::uint32_t variable, std::uint8_t wanted) {
   if (left != values_[variable]) {
     trail_.push_back({variable, values_[variable]});
     values_[variable] = left;
+    if (confusions_ != nullptr && !may_be_sure(variable)) return false;
   }
   const std::uint32_t choice = choice_of_[variable];
   const std::uint8_t chosen = variable < program_.cells.size() ? kHigh : kSeen;
@@ -132,6 +134,22 @@ bool Satisfier::narrow(std::uint32_t variable, std::uint8_t wanted) {
     trail_.push_back({static_cast<std::uint32_t>(values_.size() + choice), kNobody});
     holder_[choice] = variable;
   }
+  return true;
+}
+
+/// Whether a fact, if it is now certain to be high or seen, goes with the others that are.
+bool Satisfier::may_be_sure(std::uint32_t variable) {
+  const std::size_t cells = program_.cells.size();
+  const bool sighting = variable >= cells;
+  const std::size_t place = sighting ? variable - cells : variable;
+  if (place >= program_.facts || (values_[variable] & ~(sighting ? kSeen : kHigh)) != 0) return true;
+  const CellId fact{static_cast<std::uint32_t>(place)};
+  const double limit = sighting ? program::thresholds(program_[fact]).attended : program_.settings.firing;
+  if (limit < 0.0) return true;
+  for (const Sure& other : sure_) {
+    if (other.fact != fact && confusions_->exclusive(std::min(fact, other.fact), std::max(fact, other.fact), std::min(limit, other.limit))) return false;
+  }
+  sure_.push_back({fact, limit, trail_.size()});
   return true;
 }
 
@@ -294,6 +312,7 @@ void Satisfier::undo(std::size_t trail, std::size_t open) {
       closed_[change.place - values_.size() - holder_.size()] = false;
     }
   }
+  while (!sure_.empty() && sure_.back().trail > trail_.size()) sure_.pop_back();
   open_.resize(open);
   closed_.resize(open);
 }

@@ -5,7 +5,9 @@
 // - at most one member of an exclusive group is high, and, among facts that are seen only while they are high, at most one is seen;
 // - at most one strategy runs;
 // - a fact's sighting limits its certainty, and its certainty the sighting;
-// - a condition that has held for a while holds now; an event never holds for a while.
+// - a condition that has held for a while holds now; an event never holds for a while;
+// - two perceived facts that no readings make certain at once are not both high, or both seen (a host that gives such facts itself can
+//   make them so).
 // It knows nothing of earlier ticks, so `kYes` means "it cannot be ruled out".
 #pragma once
 
@@ -13,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/analysis/confusion.h"
 #include "compiler/analysis/domains.h"
 #include "compiler/program/program.h"
 
@@ -51,8 +54,8 @@ struct Demands {
 
 class Satisfier {
  public:
-  /// Both must outlive it.
-  Satisfier(const program::Program& program, const Domains& domains);
+  /// All must outlive it. Without `confusions` all facts are as if the host gave them.
+  Satisfier(const program::Program& program, const Domains& domains, Confusions* confusions = nullptr);
 
   /// Whether all goals can hold at one moment while `level` is evaluated (on the control level no strategy is high).
   [[nodiscard]] Answer together(std::span<const Goal> goals, std::uint32_t level);
@@ -72,6 +75,11 @@ class Satisfier {
     std::uint32_t place;
     std::uint32_t before;
   };
+  struct Sure {
+    program::CellId fact;
+    double limit;                         // which its certainty must reach
+    std::size_t trail;                    // how long that was
+  };
   struct Choice {
     std::size_t goal;
     std::size_t alternative;
@@ -86,6 +94,7 @@ class Satisfier {
   [[nodiscard]] bool restrict_to(std::uint32_t variable, std::uint8_t allowed);
   [[nodiscard]] bool narrow(std::uint32_t variable, std::uint8_t allowed);
   [[nodiscard]] bool couple(std::uint32_t fact);
+  [[nodiscard]] bool may_be_sure(std::uint32_t variable);
   [[nodiscard]] std::uint8_t allowed(std::uint32_t variable) const;
   [[nodiscard]] Truth truth(program::CondId condition);
   [[nodiscard]] Truth truth_of_several(const program::Cond& cond);
@@ -113,10 +122,12 @@ class Satisfier {
 
   const program::Program& program_;
   const Domains& domains_;
+  Confusions* confusions_;
   std::vector<std::uint8_t> values_;      // by variable: what it may still be
   std::vector<std::uint32_t> choice_of_;  // by variable: the exclusive choice it belongs to, or kNoChoice
   std::vector<std::uint32_t> holder_;     // by choice: the variable that has it, or kNobody
   std::vector<Change> trail_;             // to undo: places of values, then of holders, then of `closed_`
+  std::vector<Sure> sure_;                // perceived facts that must be high, or seen
   std::vector<Goal> open_;                // goals of which one part must hold (or fail)
   std::vector<bool> closed_;              // by open goal: met, or a part of it was taken
   std::vector<Goal> pending_;

@@ -28,7 +28,7 @@ using Alike = std::vector<RuleId>;   // rules of one level with the same effects
 class SilencedQuestions {
  public:
   explicit SilencedQuestions(const Subject& subject)
-      : subject_(subject), program_(subject.program), satisfier_(subject.program, subject.domains) {}
+      : subject_(subject), program_(subject.program), satisfier_(subject.program, subject.domains, subject.confusions.get()) {}
 
   void run() {
     find_resets();

@@ -128,7 +128,7 @@ void find_clans(Subject& subject) {
 
 Subject study(const model::Model& model, const Program& program, diagnostics::Diagnostics& diagnostics) {
   Subject subject{model, program, diagnostics, find_domains(program), written_domains(program), {}, {}, program::group_of_cells(program), {}, {},
-                  {},    {},      {}, {}};
+                  {},    {},      {}, {}, std::make_unique<Confusions>(program)};
   subject.reported.assign(program.cells.size(), false);
   find_families(subject);
   find_readers(subject);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "compiler/analysis/analysis.h"
+#include "compiler/analysis/confusion.h"
 #include "compiler/analysis/domains.h"
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/model/model.h"
@@ -42,6 +44,7 @@ struct Subject {
   std::vector<program::RuleId> setter;  ///< by cell: a rule that writes it by name
   std::vector<program::RuleId> raiser;  ///< by cell: a rule that writes a positive value to it
   std::vector<bool> reported;           ///< by cell: a message has said that it never changes, or is never seen
+  std::unique_ptr<Confusions> confusions;
 
   /// Whether a rule asks if the fact is seen, newly seen or lost; whether a rule asks if it is high.
   [[nodiscard]] bool asks_sight(program::CellId fact) const { return (asked[program::index(fact)] & kAsksSight) != 0; }
