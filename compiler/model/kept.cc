@@ -78,9 +78,7 @@ class PlanReader {
     if (plan.when) {
       const std::size_t errors = draft.diagnostics.errors();
       reader_ = std::make_unique<KeptReader>(draft, *plan.tree, *plan.when, true);
-      if (draft.diagnostics.errors() == errors && !reader_->depends()) {
-        draft.diagnostics.report(Kind::kDetoursForAllExits, (*plan.tree)[*plan.when].span);
-      }
+      if (draft.diagnostics.errors() == errors) check_alternatives(*plan.tree, *plan.when);
       return;
     }
     const Entity* closed = draft.names.find("Closed");
@@ -108,6 +106,16 @@ class PlanReader {
   }
 
  private:
+  /// Each alternative of the condition must depend on the road: one that does not closes the ways round as well.
+  void check_alternatives(const syntax::Tree& tree, syntax::CondId when) {
+    const syntax::Cond& cond = tree[when];
+    if (cond.kind == syntax::Cond::Kind::kOr) {
+      for (const syntax::CondId part : cond.children) check_alternatives(tree, part);
+    } else if (!KeptReader(draft_, tree, when, true).depends()) {
+      draft_.diagnostics.report(Kind::kDetoursForAllExits, cond.span);
+    }
+  }
+
   std::optional<CondId> closed_of(std::uint32_t leg) {
     if (const auto known = closed_of_leg_.find(leg); known != closed_of_leg_.end()) return known->second;
     std::optional<CondId> made;

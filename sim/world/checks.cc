@@ -50,14 +50,19 @@ bool check_pair(const Labyrinth& labyrinth, const Road& a, const Road& b, const 
   return false;
 }
 
-bool check_road(const Labyrinth& labyrinth, const Nearby& crossings, const Nearby& walls, const Road& road, const std::vector<Spot>& chain, Diagnostics& diagnostics) {
-  const double from_landmark_m = 0.95 * labyrinth.size * kLeastStop, from_wall_m = labyrinth.size * kLeastToWall;
+bool check_passed(const Labyrinth& labyrinth, const Nearby& crossings, const Road& road, const std::vector<Spot>& chain, Diagnostics& diagnostics) {
+  const double from_landmark_m = 0.95 * labyrinth.size * kLeastStop;
   for (const std::uint32_t c : crossings.near(bounds_of(chain), from_landmark_m)) {
     const Crossing& crossing = labyrinth.crossings[c];
     if (nearest_along(chain, crossing.at).distance_m >= from_landmark_m) continue;
     diagnostics.report(Kind::kSimRoadOverLandmark, road.span, {road.name, crossing.name});
     return false;
   }
+  return true;
+}
+
+bool check_walls(const Labyrinth& labyrinth, const Nearby& walls, const Road& road, const std::vector<Spot>& chain, Diagnostics& diagnostics) {
+  const double from_wall_m = labyrinth.size * kLeastToWall;
   if (road.kind == Picture::Kind::kOpen) return true;   // a hall may have things standing in it
   for (const std::uint32_t w : walls.near(bounds_of(chain), from_wall_m)) {
     const Picture::Wall& wall = labyrinth.walls[w];
@@ -95,12 +100,16 @@ bool check_room(const Labyrinth& labyrinth, const Ways& ways, const planners::Gr
   const Nearby crossings(labyrinth.crossings, [](const Crossing& crossing) { return bounds_of(crossing.at); });
   const Nearby walls(labyrinth.walls, [](const Picture::Wall& wall) { return bounds_of(wall.from, wall.to); });
   bool good = check_landmarks(labyrinth, crossings, diagnostics);
+  for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {   // before pairs: a road that runs over a landmark also comes near that one's roads
+    if (!check_passed(labyrinth, crossings, labyrinth.roads[i], ways[i], diagnostics)) good = false;
+  }
+  if (!good) return false;
   ways.each_pair(labyrinth.size * kLeastBetween, [&](std::size_t i, std::size_t j) {
     if (!check_pair(labyrinth, labyrinth.roads[j], labyrinth.roads[i], ways[j], ways[i], diagnostics)) good = false;
   });
   if (!good) return false;
   for (std::size_t i = 0; i < labyrinth.roads.size(); ++i) {
-    if (!check_road(labyrinth, crossings, walls, labyrinth.roads[i], ways[i], diagnostics) ||
+    if (!check_walls(labyrinth, walls, labyrinth.roads[i], ways[i], diagnostics) ||
         (background != nullptr && !check_free(labyrinth, labyrinth.roads[i], ways[i], *background, diagnostics))) {
       good = false;
     }
