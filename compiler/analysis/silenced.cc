@@ -1,4 +1,4 @@
-// Reports rules that lose what they wait for to a `reset` of their own level.
+// Reports rules that lose what they wait for to a `reset` of their own level or one above.
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
@@ -36,24 +36,24 @@ class SilencedQuestions {
     ByFamily<Loss> found(subject_);
     for (std::uint32_t i = 0; i < program_.rules.size() && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {
       const Rule& rule = program_.rules[i];
-      if (rule.reset || !resets_at_[rule.level] || Subject::generated(rule)) continue;
+      if (Subject::generated(rule) || rule.level < highest_ || (rule.reset && rule.level == highest_)) continue;
       if (const auto loss = loss_of(rule)) found.add(RuleId{i}, *loss);
     }
     found.for_each([&](RuleId id, const Loss& loss, std::uint32_t count) {
       const Rule& rule = program_[id];
       const Rule& reset = program_[loss.reset];
-      auto message = subject_.diagnostics.report(Kind::kSilencedByReset, rule.span, {rule.name, reset.name, program_[loss.cell].name, more(count)});
+      auto message = subject_.diagnostics.report(Kind::kSilencedByReset, rule.span, {rule.name, reset.name, program_[loss.cell].name, more(count),
+                                                                                             reset.level == rule.level ? std::string() : "stand at level `" + program_.levels[reset.level] + "`, "});
       if (reset.span != rule.span) message.note(Kind::kOtherRuleHere, reset.span, {reset.name});
     });
   }
 
  private:
   void find_resets() {
-    resets_at_.assign(program_.levels.size(), false);
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
       const Rule& rule = program_.rules[i];
       if (!rule.reset) continue;
-      resets_at_[rule.level] = true;
+      highest_ = std::min(highest_, rule.level);
       for (const std::size_t fact : awaited(satisfier_.demands(rule.condition, rule.level))) {
         std::vector<Alike>& all = resets_[fact];
         const auto alike = std::ranges::find_if(all, [&](const Alike& one) {
@@ -87,11 +87,12 @@ class SilencedQuestions {
       if (resets == resets_.end()) continue;
       for (const Alike& alike : resets->second) {
         const Rule& first = program_[alike.front()];
-        const auto cell = first.level == rule.level ? undone(subject_, demands, first) : std::nullopt;
+        if (first.level > rule.level || (first.level == rule.level && rule.reset)) continue;   // resets of one level fire together
+        const auto cell = undone(subject_, demands, first);
         if (!cell) continue;
         for (const RuleId id : alike) {
           const Goal goals[] = {{rule.condition, true}, {program_[id].condition, true}};
-          if (satisfier_.together(goals, rule.level) == Answer::kYes) return Loss{id, *cell};
+          if (satisfier_.together(goals, first.level) == Answer::kYes) return Loss{id, *cell};
         }
       }
     }
@@ -101,7 +102,7 @@ class SilencedQuestions {
   const Subject& subject_;
   const Program& program_;
   Satisfier satisfier_;
-  std::vector<bool> resets_at_;           // by level
+  std::uint32_t highest_ = UINT32_MAX;     // level of rules that reset
   std::unordered_map<std::size_t, std::vector<Alike>> resets_;   // by fact: the rules that reset and wait for it
 };
 
