@@ -161,7 +161,10 @@ Run setup_drive(CLI::App& app) {
     file->excludes(describe)->check([](const std::string& path) { return is_standard_output(path) ? std::string("standard output is for the answers; name a file") : std::string(); });
   }
   add_order_options(app, options->orders);
-  for (const char* not_with : {"--facts", "--describe"}) app.get_option("--orders")->excludes(not_with);
+  app.get_option("--orders")->excludes(describe);
+  app.parse_complete_callback([options, facts] {
+    if (options->orders.given() && !facts->empty()) throw CLI::ValidationError("--facts", "with --orders each order makes other rules, which no recording of facts can tell; use --record and --messages, and --trace");
+  });
   return [options](Session& session) { return run(*options, session); };
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::int64_t kPressAgainUs = 500'000;   // a button without effect is pressed again: the mind had no tick yet, or something kept the robot from setting out
 constexpr std::int64_t kLostUs = 5'000'000;         // a robot that has lost what it follows for so long does not find it again by itself
+constexpr std::int64_t kStopsUs = 3'000'000;        // at a stop line; when nothing is wrong it takes half a second
 constexpr std::size_t kMostActionBytes = wire::kLongestLine / 2;   // half of an answer; the other half is for the rest of it
 constexpr float kTurnTau_s = 0.2f;
 constexpr std::int64_t kSilentUs = 1'000'000;       // a robot that has been silent for so long has stopped, since its base has a watchdog
@@ -78,6 +79,8 @@ void OrderDesk::follow_mission() {
   if (reached_ != before) since_m_ = 0.0;
   const bool lost = phase_ == Phase::kDriving && driver.lost() && !driver.reports_any() && !exchange_.waits() && !vehicle_.task().paused;
   lost_us_ = lost ? lost_us_.value_or(t_us_) : std::optional<std::int64_t>();
+  const bool stops = phase_ == Phase::kDriving && driver.strategy() != nullptr && driver.strategy()->name == "Stop" && !driver.in_crossing() && !driver.reports_any();
+  stopped_us_ = stops ? stopped_us_.value_or(t_us_) : std::optional<std::int64_t>();
 }
 
 vda5050::Progress OrderDesk::progress() const {
@@ -89,6 +92,7 @@ vda5050::Progress OrderDesk::progress() const {
   const sim::Strategy* strategy = exchange_.driver().strategy();
   progress.held = pause_ != program::CellId::kNone && exchange_.driver().mind().seen(pause_);
   progress.waits = !progress.held && strategy != nullptr && strategy->name == "Hold";
+  progress.stopped = stopped_us_ && t_us_ - *stopped_us_ >= kStopsUs && !exchange_.waits() && !vehicle_.task().paused;
   progress.speed_m_s = speed_m_s_;
   progress.turn_rad_s = static_cast<double>(turn_rad_s_.value);
   progress.since_m = since_m_;
@@ -117,7 +121,7 @@ void OrderDesk::deal(std::int64_t t_us) {
 
 /// Gives the host as many actions as fit into a line. It gets the others when these are done.
 void OrderDesk::give_actions() {
-  constexpr std::size_t kAround = 64, kEscaped = 6;   // `"id":"",...`; a byte as `\u0001`
+  constexpr std::size_t kAround = 96, kEscaped = 6;   // `"id":"",...,"cancel":true`; a byte as `\u0001`
   std::vector<vda5050::HostAction> actions = vehicle_.host_actions();
   std::size_t bytes = 0;
   const auto rest = std::find_if(actions.begin(), actions.end(), [&](const vda5050::HostAction& action) {

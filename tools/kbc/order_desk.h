@@ -80,6 +80,7 @@ class OrderDesk {
   std::int64_t dealt_us_ = 0;               // the last time given to the link; the robot's clock may lag behind the time waited
   bool silent_ = false;                     // nothing has come for long
   std::optional<std::int64_t> lost_us_;     // since when the controller has lost its way without a report of the mind
+  std::optional<std::int64_t> stopped_us_;  // since when it stands at a stop line
   mts::Odometer odometer_;
   double since_m_ = 0.0, speed_m_s_ = 0.0;
   mts::LowPass turn_rad_s_{0.0f, true};

@@ -80,6 +80,23 @@ TEST_F(Cancelling, CancellingWaitsForWhatIsBeingDone) {
   EXPECT_EQ(status("d"), "FINISHED");
 }
 
+TEST_F(Cancelling, TheHostIsAskedToGiveUpWhatItDoesAlsoInAPause) {
+  Json json = order("A", 0, {"n1", "n2"});
+  json["nodes"][0]["actions"] = Json::array({action("b", "beep", "SOFT"), action("p", "pick", "SOFT")});
+  say("order", json);
+  instruct("s", "startPause");
+  EXPECT_FALSE(vehicle.host_actions().at(0).cancel);
+  instruct("c", "cancelOrder");
+  EXPECT_TRUE(vehicle.host_actions().at(0).cancel);
+  EXPECT_EQ(status("b"), "FAILED") << "nobody does it";
+  EXPECT_EQ(status("c"), "RUNNING");
+  words = {{"p", "failed"}};
+  look();
+  EXPECT_EQ(status("p"), "FAILED");
+  EXPECT_EQ(errors(), "") << "the master has cancelled it";
+  EXPECT_EQ(status("c"), "FINISHED");
+}
+
 TEST_F(Cancelling, WithoutOrderThereIsNothingToCancel) {
   instruct("c", "cancelOrder");
   EXPECT_EQ(status("c"), "FAILED");

@@ -27,6 +27,10 @@ TEST_F(Instants, APauseHoldsTheRobotAndItsActions) {
   EXPECT_TRUE(vehicle.task().paused);
   EXPECT_EQ(way(), "L1.E L2") << "it keeps its task";
   EXPECT_EQ(status("b"), "PAUSED");
+  EXPECT_TRUE(vehicle.host_actions().at(0).pause);
+  EXPECT_EQ(status("p"), "RUNNING") << "the host has not paused it yet";
+  words = {{"p", "paused"}};
+  look();
   EXPECT_EQ(status("p"), "PAUSED");
   progress.speed_m_s = 0.0;
   look(10);
@@ -36,6 +40,9 @@ TEST_F(Instants, APauseHoldsTheRobotAndItsActions) {
   EXPECT_EQ(status("t"), "FINISHED");
   EXPECT_EQ(state["paused"], false);
   EXPECT_FALSE(vehicle.task().paused);
+  EXPECT_FALSE(vehicle.host_actions().at(0).pause);
+  words = {{"p", "running"}};
+  look();
   EXPECT_EQ(status("p"), "RUNNING");
   look(2);
   EXPECT_EQ(status("b"), "FINISHED");

@@ -139,6 +139,23 @@ TEST_F(Yard, WhereNobodyKnowsWhereTheVehicleIsTheMasterDoes) {
   EXPECT_EQ(way(), "L6.E L7");
 }
 
+TEST_F(Yard, WhatIsToBeDoneAtTheFirstNodeWaitsForItsSign) {
+  look();
+  Json json = order("A", 0, {"n1", "n2"});
+  json["nodes"][0]["actions"] = Json::array({action("p", "pick")});
+  say("order", json);
+  EXPECT_EQ(left(), "n1 n2");
+  EXPECT_EQ(status("p"), "WAITING");
+  EXPECT_EQ(way(), "L1");
+  set_off();
+  stop();
+  EXPECT_EQ(left(), "n2");
+  EXPECT_EQ(status("p"), "RUNNING");
+  words = {{"p", "finished"}};
+  look();
+  EXPECT_EQ(way(), "L1.E L2");
+}
+
 TEST_F(Orders, AnotherOrderHasToWait) {
   say("order", order("A", 0, {"n1", "n2"}));
   refuses(order("B", 0, {"n1", "n2"}), "orderError", "`A` is not over");
@@ -182,6 +199,19 @@ TEST_F(Orders, AnUpdateGoesOnAtTheEndOfTheBase) {
   EXPECT_EQ(state["orderUpdateId"], 5);
   EXPECT_EQ(left(), "n2 n1 (n2)");
   EXPECT_EQ(errors(), "");
+}
+
+TEST_F(Orders, AnActionThatAnUpdateAddsAtTheEndOfTheBaseComesTooLate) {
+  Json json = order("A", 0, {"n1", "n2"});
+  json["nodes"][1]["actions"] = Json::array({action("p", "pick")});
+  say("order", json);
+  json = order("A", 1, {"n2", "n3"}, 2, 2);
+  json["nodes"][0]["actions"] = Json::array({action("p", "pick"), action("q", "pick")});
+  say("order", json);
+  EXPECT_EQ(left(), "n2 n3");
+  EXPECT_EQ(errors(), "orderUpdateError");
+  EXPECT_EQ(reference("actionId"), "q");
+  EXPECT_EQ(status("q"), "none");
 }
 
 TEST_F(Orders, AFinishedOrderCanBeTakenUpAgain) {

@@ -65,6 +65,8 @@ TEST_F(Yard, AStateIsSentWhenSomethingChangesAndEveryThirtySeconds) {
   sends([this] { progress.waits = true; });
   EXPECT_EQ(state["paused"], false);
   EXPECT_EQ(state["information"].back()["infoType"], "waits");
+  sends([this] { progress.stopped = true; });
+  EXPECT_EQ(state["information"].back()["infoType"], "standsAtStopLine");
   sends([this] { progress.reports = {"Help.lost"}; });
   sends([this] { progress.own_mission = "ToPlug"; });
   EXPECT_EQ(errors(), "ownMission Help.lost");

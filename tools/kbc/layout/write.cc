@@ -38,17 +38,21 @@ std::size_t roads_between(std::span<const Road> roads, std::uint32_t from, std::
 }  // namespace
 
 std::vector<std::string> landmark_names(const Layout& layout, const Wording& wording) {
-  std::vector<std::string> names;
+  std::vector<std::string> names(layout.places.size());
   std::unordered_set<std::string> used;
   std::unordered_map<std::string, std::size_t> last_of;   // by name: the last number put behind it, less 1
   const auto free = [&](const std::string& name) { return !used.contains(name) && !(wording.taken && wording.taken(name)); };
-  for (const Place& place : layout.places) {
-    std::string name = syntax::worded(place.id);
+  for (std::size_t i = 0; i < names.size(); ++i) {   // an id that is a name comes before others that would become it: orders may use it
+    const std::string& id = layout.places[i].id;
+    if (syntax::worded(id) == id && begins_name(id) && free(id)) used.insert(names[i] = id);
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].empty()) continue;
+    std::string name = syntax::worded(layout.places[i].id);
     if (!begins_name(name) || !free(name)) name = wording.prefix + name;
     const std::string plain = name;
-    for (std::size_t& i = last_of[plain]; !free(name);) name = fmt::format("{}_{}", plain, ++i + 1);
-    used.insert(name);
-    names.push_back(std::move(name));
+    for (std::size_t& k = last_of[plain]; !free(name);) name = fmt::format("{}_{}", plain, ++k + 1);
+    used.insert(names[i] = std::move(name));
   }
   return names;
 }

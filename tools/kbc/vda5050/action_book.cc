@@ -85,7 +85,9 @@ void ActionBook::leave_edge(std::uint32_t sequence) {
 void ActionBook::cancel() {
   for (ActionState& state : all_) {
     if (state.origin == ActionState::Origin::kInstant || state.over()) continue;
-    if (state.status == Status::kWaiting || state.action.type == "waitForTrigger") end(state, Status::kFailed, "the order was cancelled");
+    const bool by_host = state.doing() && !state.left_us && state.action.type != "waitForTrigger";
+    if (by_host) state.cancelled = true;
+    else end(state, Status::kFailed, "the order was cancelled");
   }
 }
 
@@ -98,8 +100,8 @@ void ActionBook::fail_order(const std::string& why) {
 void ActionBook::pause(bool on) {
   paused_ = on;
   for (ActionState& state : all_) {
-    if (!state.doing() || state.own) continue;
-    const Status status = on || state.host_paused ? Status::kPaused : Status::kRunning;
+    if (!state.doing() || !state.left_us) continue;
+    const Status status = on ? Status::kPaused : Status::kRunning;
     changed_ = changed_ || state.status != status;
     state.status = status;
   }
@@ -135,11 +137,11 @@ void ActionBook::hear(const HostActionState& report) {
     if (report.status == "finished") return end(state, Status::kFinished, result);
     if (report.status == "failed") {
       end(state, Status::kFailed, result);
-      return failures_.push_back(state);
+      if (!state.cancelled) failures_.push_back(state);
+      return;
     }
     if (report.status != "paused" && report.status != "running") return;
-    state.host_paused = report.status == "paused";
-    const Status status = paused_ || state.host_paused ? Status::kPaused : Status::kRunning;
+    const Status status = report.status == "paused" ? Status::kPaused : Status::kRunning;
     if (status != state.status || state.result != result) changed_ = true;
     state.status = status;
     state.result = result;
@@ -180,7 +182,7 @@ std::vector<HostAction> ActionBook::host_actions() const {
   }
   std::sort(now.begin(), now.end(), [](const ActionState* a, const ActionState* b) { return a->begun < b->begun; });
   std::vector<HostAction> actions;
-  for (const ActionState* state : now) actions.push_back({state->action.id, state->action.type, state->action.parameters});
+  for (const ActionState* state : now) actions.push_back({state->action.id, state->action.type, state->action.parameters, paused_, state->cancelled});
   return actions;
 }
 

@@ -35,7 +35,7 @@ struct ActionState {
   std::optional<std::int64_t> left_us = {};   ///< an action that no one performs is over after this time
   std::uint64_t begun = 0;                ///< its number in the order of beginning; 0: not begun
   bool own = false;                       ///< the vehicle does it itself: `cancelOrder`
-  bool host_paused = false;               ///< the host reports it as paused
+  bool cancelled = false;                 ///< its order is being cancelled, and the host is asked to give it up
 
   [[nodiscard]] bool over() const { return status == Status::kFinished || status == Status::kFailed; }
   [[nodiscard]] bool doing() const { return status == Status::kRunning || status == Status::kPaused; }
@@ -64,10 +64,11 @@ class ActionBook {
   void trigger(ActionState::Origin origin, std::uint32_t sequence);
   /// The vehicle leaves an edge: actions that run there are over (6.10.2).
   void leave_edge(std::uint32_t sequence);
-  /// The order is cancelled: waiting actions fail, and so does a running `waitForTrigger`. Other running actions are finished.
+  /// The order is cancelled: its actions fail, except for those that the host does, which it is asked to give up.
   void cancel();
   /// The same, but running actions of the order fail too.
   void fail_order(const std::string& why);
+  /// Pauses actions that no one performs, or lets them go on. The host is asked to do so with the others, and reports it.
   void pause(bool on);
 
   /// Lets time pass for actions that no one performs.

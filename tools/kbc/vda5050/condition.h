@@ -15,6 +15,8 @@ inline constexpr std::array<std::string_view, 5> kModes{"AUTOMATIC", "SEMIAUTOMA
 struct HostAction {
   std::string id, type;
   std::string parameters;     ///< JSON, an object in one line: `{"height":1.2}`; empty: `{}`
+  bool pause = false;         ///< it is to be interrupted until this is false again
+  bool cancel = false;        ///< it is to be given up, if that is possible
 };
 
 /// The host's report on it.

@@ -34,6 +34,7 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
   reports = now.reports;
   held = now.held;
   waits = now.waits;
+  stopped = now.stopped;
   in_crossing = now.in_crossing;
   silent = now.silent;
   if (std::exchange(own_mission, now.own_mission) != now.own_mission && !own_mission.empty()) {

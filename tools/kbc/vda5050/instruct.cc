@@ -108,7 +108,7 @@ void Vehicle::State::try_skill(const Action& action) {
   if (!obeys()) return decline(action, error, fmt::format("the vehicle is in mode {}", condition.mode));
   if (paused) return decline(action, error, "the vehicle pauses");
   if (actions.hard_running()) return decline(action, error, "an action of blockingType HARD is being done");
-  if (action.blocking != Blocking::kNone && !stands()) return decline(action, error, "the vehicle drives; only actions of blockingType NONE can be done meanwhile");
+  if (action.blocking != Blocking::kNone && !stands()) return decline(action, error, "the vehicle is on its way; only actions of blockingType NONE can be done meanwhile");
   if (action.blocking == Blocking::kHard && actions.any_running()) return decline(action, error, "other actions are being done");
   actions.begin_instant(action);
 }

@@ -95,7 +95,7 @@ Message connection_message(const Identity& identity, std::string_view word, std:
 }
 
 Shown Vehicle::State::shown() const {
-  return {driving, condition.charging, condition.field_violation, base_request(), paused || held, waits, silent, condition.e_stop, condition.mode, book.last_node(), reports};
+  return {driving, condition.charging, condition.field_violation, base_request(), paused || held, waits, stopped, silent, condition.e_stop, condition.mode, book.last_node(), reports};
 }
 
 /// Adds where the robot is, and how fast it moves.
@@ -132,6 +132,7 @@ void Vehicle::State::send_state(std::int64_t utc_us) {
   Out infos = Out::array();
   if (!battery_known) infos.push_back(info("batteryUnknown", "nobody tells how full the battery is"));
   if (waits) infos.push_back(info("waits", "a rule of the robot's own holds it until something is done"));
+  if (stopped) infos.push_back(info("standsAtStopLine", "the robot stands before a crossing: it is not safe to enter, or no way on is open"));
   for (const std::string& field : book.unused()) infos.push_back(info("fieldPassedOver", field + " of the order is not heeded", {{"orderId", book.id()}}));
   out["information"] = std::move(infos);
   out["safetyState"] = {{"eStop", condition.e_stop}, {"fieldViolation", condition.field_violation}};

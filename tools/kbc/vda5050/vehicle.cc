@@ -88,19 +88,30 @@ void Vehicle::State::take_order(const std::string& payload) {
 }
 
 void Vehicle::State::extend(Order order) {
+  complain_of_late(order);
   actions.forget_after(book.nodes()[book.base_end()].sequence);
   actions.plan(order.nodes, order.edges, false);
   book.extend(std::move(order));
 }
 
+/// The node at the end of the base must not be changed by an update (6.6.2); a master that adds an action there would wait for it in vain.
+void Vehicle::State::complain_of_late(const Order& order) {
+  for (const Action& action : order.nodes.front().actions) {
+    if (actions.find(action.id) != nullptr) continue;
+    complain({"orderUpdateError", fmt::format("action `{}` is passed over: node `{}` was released without it", action.id, order.nodes.front().id),
+              {{"topic", "order"}, {"orderId", order.id}, {"orderUpdateId", std::to_string(order.update)}, {"actionId", action.id}, {"nodeId", order.nodes.front().id}}});
+  }
+}
+
 void Vehicle::State::begin(Order order) {
+  const bool lost = where().empty();   // just switched on, it has yet to come to the first node
   actions.forget_order();
   actions.plan(order.nodes, order.edges, true);
   stretch.close();
   gave_up = on_mission = was_on_mission = false;
   passed_m = 0.0;
   book.begin(std::move(order));
-  if (beyond() != nullptr && !book.nodes().front().actions.empty()) book.go_back();   // see note [beyond a node]
+  if ((beyond() != nullptr || lost) && !book.nodes().front().actions.empty()) book.go_back();   // see note [beyond a node]
   else actions.trigger(ActionState::Origin::kNode, book.last_sequence());
 }
 

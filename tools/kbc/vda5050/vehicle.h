@@ -66,6 +66,7 @@ struct Progress {
   std::string own_mission = {};    ///< a mission that the robot has begun on its own and that is being stopped; empty: none
   bool held = false;               ///< a switch on its back holds it
   bool waits = false;              ///< a rule of its own holds it until something is done
+  bool stopped = false;            ///< it has stood at a stop line for a while, and reports nothing yet: the crossing is not safe, or its ways on are closed
   std::optional<Whereabouts> at = {};  ///< where it is; without an exit in a crossing. Nothing: unknown
   bool in_crossing = false;        ///< past its stop line
   bool silent = false;             ///< the robot has fallen silent: all else is as last heard, and its base has stopped it

@@ -23,7 +23,7 @@ namespace kb::vda5050 {
 
 /// The parts of a state that are compared with the last one sent, since each change must be reported (6.10).
 struct Shown {
-  bool driving = false, charging = false, field_violation = false, base_request = false, paused = false, waits = false, silent = false;
+  bool driving = false, charging = false, field_violation = false, base_request = false, paused = false, waits = false, stopped = false, silent = false;
   std::string e_stop, mode, last_node;
   std::vector<std::string> reports;
   friend bool operator==(const Shown&, const Shown&) = default;
@@ -42,6 +42,7 @@ struct Vehicle::State {
   [[nodiscard]] std::optional<Complaint> object_to(const Order& order, bool update) const;
   void begin(Order order);
   void extend(Order order);
+  void complain_of_late(const Order& order);
   void look(const Condition& now);
   void clear_order(const std::string& why);
   void finish(std::int64_t utc_us);   ///< the end of each hear and observe: reports what has changed
@@ -102,7 +103,7 @@ struct Vehicle::State {
   std::vector<std::string> reports;
   std::int64_t stood_us = 0, helpless_us = 0;        // how long it has stood without a break, and of that with reports
   std::string here, own_mission;
-  bool held = false, waits = false;                  // held by a switch on the robot; waits because of its own rules
+  bool held = false, waits = false, stopped = false; // held by a switch on the robot; waits because of its own rules; at a stop line
   bool in_crossing = false, silent = false;
   double speed_m_s = 0.0, turn_rad_s = 0.0, since_m = 0.0;
   bool driving = false;

@@ -47,6 +47,8 @@ void append_actions(std::string& out, const std::vector<vda5050::HostAction>& ac
     append_json(out, action.type);
     append_key(out, "parameters");
     out += action.parameters.empty() ? "{}" : action.parameters;
+    if (action.pause) append_truth(out, "pause", true);
+    if (action.cancel) append_truth(out, "cancel", true);
     out += '}';
   });
 }

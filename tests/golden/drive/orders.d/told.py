@@ -19,5 +19,6 @@ for line in open(sys.argv[1], encoding="utf-8"):
     words += ["wants more base"] if message.get("newBaseRequest") else []
     words += [f'{a["actionId"]} {a["actionStatus"]}' for a in message["actionStates"]]
     words += [f'{e["errorLevel"]} {e["errorType"]}: {e.get("errorDescription", "")}' for e in message["errors"] if e not in errors]
+    words += [i["infoType"] for i in message["information"] if i["infoType"] == "standsAtStopLine"]
     errors = message["errors"]
     print(f'{said["t"]:6.2f} ' + ", ".join(words))

@@ -1,0 +1,1 @@
+# RUN: kbc drive yard.kb --orders orders.jsonl --facts f.csv
