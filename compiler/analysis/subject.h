@@ -52,7 +52,8 @@ struct Subject {
 
   /// Whether rules write other values to the cell than it has from the start, but none of them can fire.
   [[nodiscard]] bool written_only_in_vain(program::CellId cell) const {
-    return domains.cells[program::index(cell)] != written.cells[program::index(cell)] && domains.cells[program::index(cell)] == region_of(program[cell].initial, static_cast<float>(program.settings.firing));
+    const Regions reached = domains.cells[program::index(cell)];
+    return reached != written.cells[program::index(cell)] && reached == region_of(program[cell].initial, static_cast<float>(program.settings.firing));
   }
 
   [[nodiscard]] static bool generated(const program::Rule& rule) { return !rule.span.known(); }
