@@ -149,7 +149,7 @@ std::string instances(const CppInput& in, std::string_view before) {
 }  // namespace
 
 Cpp cpp(const program::Program& program, const tables::Tables& tables, const CppOptions& options) {
-  const CppInput in{program, tables, options, make_names(program, tables), make_fuzzy_names(program)};
+  const CppInput in{program, tables, options, make_names(program, tables), make_type_names(program)};
   const std::string declared = header_body(in), defined = source_body(in), version = version_name(declared, defined);
   const auto within = [&](std::string_view body) {
     return fmt::format("namespace {0} {{\ninline namespace {1} {{\n\n{2}}}  // namespace {1}\n}}  // namespace {0}\n\n", options.name_space, version, body);

@@ -19,7 +19,7 @@ struct CppInput {
   const tables::Tables& tables;
   const CppOptions& options;
   Names names;
-  std::vector<FuzzyNames> fuzzy_names;
+  TypeNames types;
 };
 
 /// "std::uint16_t" or "std::uint32_t".

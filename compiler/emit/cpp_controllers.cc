@@ -55,14 +55,13 @@ std::vector<Controller> collect(const CppInput& in) {
     Controller& controller = controllers[at->second];
     controller.drives.emplace_back(in.program[control.strategy].name);
     if (control.fuzzy != fuzzy::kNone) {
-      controller.fuzzy = &in.fuzzy_names[control.fuzzy];
+      controller.fuzzy = &in.types.fuzzy[control.fuzzy];
       continue;
     }
     for (const Control::Argument& argument : control.arguments) add_field(controller, argument);
   }
   Scope methods{"run", "idle", "sense"};
-  Scope types = type_scope();
-  for (const FuzzyNames& names : in.fuzzy_names) static_cast<void>(types.make(names.type));
+  Scope types = in.types.taken;
   for (Controller& controller : controllers) {
     controller.method = methods.make(controller.source_name);
     if (controller.fuzzy != nullptr) continue;

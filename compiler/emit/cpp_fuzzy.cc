@@ -92,14 +92,14 @@ std::string slot_expression(const fuzzy::Controller& c, const FuzzyNames& names,
 }
 
 void emit_fuzzy(const CppInput& in, std::string& out) {
-  for (std::size_t i = 0; i < in.program.fuzzy.size(); ++i) emit_class(in.program.fuzzy[i], in.fuzzy_names[i], in.tables.fuzzy[i], out);
+  for (std::size_t i = 0; i < in.program.fuzzy.size(); ++i) emit_class(in.program.fuzzy[i], in.types.fuzzy[i], in.tables.fuzzy[i], out);
 }
 
 void emit_fuzzy_code(const CppInput& in, std::string& out) {
   for (std::size_t i = 0; i < in.program.fuzzy.size(); ++i) {
     const fuzzy::Controller& c = in.program.fuzzy[i];
     const tables::FuzzyForm& form = in.tables.fuzzy[i];
-    const FuzzyNames& names = in.fuzzy_names[i];
+    const FuzzyNames& names = in.types.fuzzy[i];
     fmt::format_to(Out(out), "// ---- fuzzy controller {}\nnamespace {{\nnamespace fuzzy_{} {{\n\n", c.name, names.type);
     emit_constants(c, form, out);
     fmt::format_to(Out(out), "\n}}  // namespace fuzzy_{}\n}}  // namespace\n\n", names.type);

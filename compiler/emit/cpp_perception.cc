@@ -31,11 +31,9 @@ class SensesPrinter {
 
   void declare() {
     Scope scope{"store_", "store", "Readings", "Store"};
-    Scope types{"kTexts"};
     for (const program::Sensor& sensor : from_.sensors) {
       names_.push_back(scope.make(sensor.name));
-      types_.push_back(types.make(sensor.name + "Texts"));
-      if (sensor.text) declare_texts(sensor, types_.back());
+      if (sensor.text) declare_texts(sensor, in_.types.texts[names_.size() - 1]);
     }
     line("/// What the sensors said last, and when: `readings.name = {{value, instant}}`. A reading stays until the next one.");
     line("struct Readings {{\n  using Store = mts::ReadingStore<{}>;\n", std::max(form_.shape.readings, 1u));
@@ -92,7 +90,7 @@ class SensesPrinter {
 
   void slot(const program::Sensor& sensor, std::size_t s) {
     if (sensor.text) {
-      line("    mts::TextSlot<Store, {}, {}, ::{}::{}> {};", sensor.first, sensor.array ? sensor.count : 1, in_.options.name_space, types_[s],
+      line("    mts::TextSlot<Store, {}, {}, ::{}::{}> {};", sensor.first, sensor.array ? sensor.count : 1, in_.options.name_space, in_.types.texts[s],
            names_[s]);   // a sensor may have the name that is the type of another one
     } else if (sensor.array) {
       line("    mts::NumberArray<Store, {}, {}> {};  // {}", sensor.first, sensor.count, names_[s], fuzzy::range_text(sensor.low, sensor.high, sensor.unit, sensor.circular));
@@ -163,7 +161,7 @@ class SensesPrinter {
   const program::Perception& from_;
   tables::PerceptionForm form_;
   std::string& out_;
-  std::vector<std::string> names_, types_;  // by sensor
+  std::vector<std::string> names_;  // by sensor
 };
 
 }  // namespace

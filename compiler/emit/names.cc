@@ -3,45 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
+#include "compiler/emit/reserved_words.h"
 #include "compiler/source/fingerprint.h"
 #include "compiler/tables/names.h"
 
 namespace kb::emit {
 namespace {
-
-// Keywords of C++20, alternative spellings, and macros that <cstdint>, <cstdio>, <cmath>, <ctime>, <cerrno> and friends may bring.
-constexpr std::array<std::string_view, 121> kKeywords = {
-    "NULL",          "alignas",      "alignof",     "and",          "and_eq",       "asm",          "auto",
-    "bitand",        "bitor",        "bool",        "break",        "case",         "catch",        "char",
-    "char16_t",      "char32_t",     "char8_t",     "class",        "co_await",     "co_return",    "co_yield",
-    "compl",         "concept",      "const",       "const_cast",   "consteval",    "constexpr",    "constinit",
-    "continue",      "decltype",     "default",     "delete",       "do",           "double",       "dynamic_cast",
-    "else",          "enum",         "errno",       "explicit",     "export",       "extern",       "false",
-    "float",         "for",          "friend",      "goto",         "if",           "inline",       "int",
-    "long",          "mutable",      "namespace",   "new",          "noexcept",     "not",          "not_eq",
-    "nullptr",       "operator",     "or",          "or_eq",        "private",      "protected",    "public",
-    "register",      "reinterpret_cast", "requires", "return",      "short",        "signed",       "sizeof",
-    "static",        "static_assert", "static_cast", "std",         "struct",       "switch",       "template",
-    "this",          "thread_local", "throw",       "true",         "try",          "typedef",      "typeid",
-    "typename",      "union",        "unsigned",    "using",        "virtual",      "void",         "volatile",
-    "wchar_t",       "while",        "xor",         "xor_eq",       "unix",         "linux",        "mts",
-    "main",          "assert",       "EOF",         "NAN",          "INFINITY",     "TRUE",         "FALSE",
-    "BUFSIZ",        "SEEK_SET",     "SEEK_CUR",    "SEEK_END",     "stdin",        "stdout",       "stderr",
-    "CLOCKS_PER_SEC", "CHAR_BIT",    "EDOM",        "ERANGE",       "EILSEQ",       "BIG_ENDIAN",   "LITTLE_ENDIAN",
-    "alloca",        "math_errhandling"};
-
-/// `INT8_MAX`, `SIZE_MAX`, `UINT16_C`, ... are macros of <cstdint>; `LONG_MAX`, `M_PI`, `EXIT_SUCCESS`, ... are macros of headers that fleets
-/// need; `KB_FLEET_WIDTH` and others are macros of a fleet's source.
-bool is_macro(std::string_view name) {
-  const auto begins = [name](std::string_view with) { return name.starts_with(with); };
-  const auto ends = [name](std::string_view with) { return name.ends_with(with); };
-  if (begins("KB_FLEET_") || begins("M_") || begins("FP_") || begins("MATH_") || begins("HUGE_VAL") || begins("EXIT_")) return true;
-  return (begins("INT") || begins("UINT") || begins("SIZE") || begins("PTRDIFF") || begins("SIG_ATOMIC") || begins("WCHAR") ||
-          begins("WINT") || begins("CHAR") || begins("SCHAR") || begins("UCHAR") || begins("SHRT") || begins("USHRT") || begins("LONG") ||
-          begins("ULONG") || begins("LLONG") || begins("ULLONG") || begins("RAND")) && (ends("_MAX") || ends("_MIN") || ends("_WIDTH") || ends("_C"));
-}
 
 bool part_of_identifier(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -58,7 +26,7 @@ std::string identifier(std::string_view name) {
   }
   while (!out.empty() && out.back() == '_') out.pop_back();
   if (out.empty() || (out.front() >= '0' && out.front() <= '9')) out.insert(0, "n");
-  if (is_macro(out) || std::find(kKeywords.begin(), kKeywords.end(), out) != kKeywords.end()) out += '_';
+  if (is_reserved(out)) out += '_';
   return out;
 }
 
@@ -198,15 +166,11 @@ std::string unit_suffix(std::string_view unit) {
   return out;
 }
 
-Scope type_scope() {
-  return Scope{"Atom", "Controllers", "Decision", "Fact", "Facts", "Fleet", "Index", "Inputs", "Knowledge", "Mind", "Outputs",
-               "Perception", "Readings", "Rule", "Run", "Satellite", "Senses", "Strategy", "drive", "evaluate", "evaluate_tables",
-               "name", "speed_limit_m_per_s"};
-}
-
-std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {
-  std::vector<FuzzyNames> all;
-  Scope types = type_scope();
+TypeNames make_type_names(const program::Program& program) {
+  TypeNames all;
+  Scope& types = all.taken = Scope{"Atom", "Controllers", "Decision", "Fact", "Facts", "Fleet", "Index", "Inputs", "Knowledge", "Mind", "Outputs",
+                                   "Perception", "Readings", "Rule", "Run", "Satellite", "Senses", "Strategy", "drive", "evaluate",
+                                   "evaluate_tables", "name", "speed_limit_m_per_s"};
   const auto field = [](Scope& scope, const std::string& name, const std::string& unit) {
     return scope.make(name + (unit.empty() ? "" : "_" + unit_suffix(unit)));
   };
@@ -216,7 +180,10 @@ std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program) {
     Scope inputs, outputs{"status"};
     for (const fuzzy::Input& input : controller.inputs) names.inputs.push_back(field(inputs, input.name, input.unit));
     for (const fuzzy::Output& output : controller.outputs) names.outputs.push_back(field(outputs, output.name, output.unit));
-    all.push_back(std::move(names));
+    all.fuzzy.push_back(std::move(names));
+  }
+  for (const program::Sensor& sensor : program.perception.sensors) {
+    all.texts.push_back(sensor.text ? types.make(beside_tables(sensor.name + "Texts")) : "");
   }
   return all;
 }

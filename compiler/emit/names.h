@@ -13,7 +13,7 @@
 namespace kb::emit {
 
 /// A C++ identifier that looks like `name`: letters (of any script), digits and single underscores; anything else becomes
-/// an underscore; a C++ keyword gets one appended. `Cross[right,mark]` -> `Cross_right_mark`.
+/// an underscore; a word of C++ (reserved_words.h) gets one appended. `Cross[right,mark]` -> `Cross_right_mark`.
 [[nodiscard]] std::string identifier(std::string_view name);
 
 /// Identifiers of one scope: each is handed out once; a second request for the same one gets a number appended.
@@ -34,15 +34,19 @@ struct Names {
 };
 [[nodiscard]] Names make_names(const program::Program& program, const tables::Tables& tables);
 
-/// The scope of controllers' types; it already holds the names that an emitted header or source declares itself.
-[[nodiscard]] Scope type_scope();
-
 /// The identifiers of one fuzzy controller. A quantity carries its unit: `speed_m_per_s`.
 struct FuzzyNames {
   std::string type;                           ///< `GoToGoal`
   std::vector<std::string> inputs, outputs;   ///< fields
 };
-[[nodiscard]] std::vector<FuzzyNames> make_fuzzy_names(const program::Program& program);
+
+/// The types of a header that are called after things of the knowledge base.
+struct TypeNames {
+  std::vector<FuzzyNames> fuzzy;
+  std::vector<std::string> texts;   ///< by sensor, `SignTexts`; empty for one of numbers
+  Scope taken;                      ///< these, and what an emitted header or source declares itself; controllers' types are made in it
+};
+[[nodiscard]] TypeNames make_type_names(const program::Program& program);
 
 /// What a plane stands for, in words.
 [[nodiscard]] std::string plane_text(const program::Program& program, const tables::FleetForm& form, const tables::FleetPlane& plane);

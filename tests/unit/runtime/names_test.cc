@@ -1,7 +1,16 @@
 // Names that emitted code has itself: names.kb beside this file. That it compiles is the most of the test.
 #include <gtest/gtest.h>
 
-#include <cstdio>   // EOF is a macro here
+// Macros that facts are called as.
+#include <cerrno>
+#include <cfenv>
+#include <cfloat>
+#include <cinttypes>
+#include <clocale>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <cwchar>
 #include <type_traits>
 
 #include "names.kb.fleet.h"
@@ -24,6 +33,8 @@ struct Wheels {
   void kAtoms(const How&) { driven = 4; }
   template <class How>
   void evaluate(const How&) { driven = 5; }
+  template <class How>
+  void sign_texts(const How&) { driven = 6; }
   void idle() { driven = 0; }
   int driven = -1;
 };
@@ -46,6 +57,10 @@ TEST(Names, OfEmittedCodeItselfAreFreeInAKnowledgeBase) {
   EXPECT_STREQ(name(names::Fact::SIZE_MAX_), "SIZE_MAX");
   EXPECT_STREQ(name(names::Fact::EOF_), "EOF");
   EXPECT_STREQ(name(names::Fact::M_PI_), "M_PI");
+  EXPECT_STREQ(name(names::Fact::EINTR_), "EINTR");
+  EXPECT_STREQ(name(names::Fact::EAST), "EAST");
+  EXPECT_STREQ(name(names::Fact::SIGN), "SIGN");
+  EXPECT_STREQ(name(names::Fact::PRIORITY), "PRIORITY");
 }
 
 }  // namespace
