@@ -222,7 +222,7 @@ template <class Ix>
 }  // namespace image
 
 inline ImageStatus peek_image(const void* bytes, std::size_t size, ImageInfo& info) {
-  if (size < sizeof(ImageHead)) return ImageStatus::kTooShort;
+  if (bytes == nullptr || size < sizeof(ImageHead)) return ImageStatus::kTooShort;
   if (reinterpret_cast<std::uintptr_t>(bytes) % alignof(ImageHead) != 0) return ImageStatus::kMisaligned;
   const ImageHead& h = *static_cast<const ImageHead*>(bytes);
   const ImageStatus status = image::head_fits(h, size);
@@ -235,7 +235,7 @@ inline ImageStatus peek_image(const void* bytes, std::size_t size, ImageInfo& in
 }
 
 inline std::size_t image_length(const void* bytes, std::size_t slot_size) {
-  if (slot_size < sizeof(ImageHead) || reinterpret_cast<std::uintptr_t>(bytes) % alignof(ImageHead) != 0) return 0;
+  if (bytes == nullptr || slot_size < sizeof(ImageHead) || reinterpret_cast<std::uintptr_t>(bytes) % alignof(ImageHead) != 0) return 0;
   const std::uint32_t length = static_cast<const ImageHead*>(bytes)->bytes;
   ImageInfo info;
   return length <= slot_size && peek_image(bytes, length, info) == ImageStatus::kOk ? length : 0;
@@ -249,6 +249,7 @@ ImageStatus open_image(const void* bytes, std::size_t size, Word* scratch, std::
   const ImageHead& h = *static_cast<const ImageHead*>(bytes);
   if (info.index_bytes != sizeof(Ix)) return ImageStatus::kOtherWidth;
   if (checksum == Checksum::kVerify && image::checksum_of(bytes, size) != h.checksum) return ImageStatus::kWrongChecksum;
+  if (scratch == nullptr) scratch_words = 0;
   if (scratch_words < info.scratch_words) return ImageStatus::kNoScratch;
   for (std::uint32_t i = 0; i < info.scratch_words; ++i) scratch[i] = 0;
   Image<Ix> made;

@@ -86,7 +86,7 @@ class BasicImageMind {
     ImageInfo info;
     if (const ImageStatus status = peek_image(bytes, size, info); status != ImageStatus::kOk) return status;
     const Stretch state = stretch(block, info.state_bytes), image = stretch(bytes, size);
-    if (state.begin % 8 != 0 || block_bytes < info.state_bytes || overlap(state, image)) return ImageStatus::kNoMemory;
+    if (block == nullptr || state.begin % 8 != 0 || block_bytes < info.state_bytes || overlap(state, image)) return ImageStatus::kNoMemory;
     if (has_image() && (overlap(state, state_) || overlap(state, image_))) return ImageStatus::kNoMemory;
     ImageStatus status = ImageStatus::kOtherWidth;
     if (info.index_bytes == 2) status = take_as(half16_, bytes, size, block, block_bytes, report, lost);

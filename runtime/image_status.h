@@ -11,7 +11,7 @@ namespace mts {
 enum class ImageStatus : std::uint8_t {
   kOk,
   // the file
-  kTooShort,       ///< shorter than a head
+  kTooShort,       ///< shorter than a head, or a null pointer
   kNotAnImage,     ///< does not begin with the mark of an image
   kOtherForm,      ///< of another version of the file's form
   kOtherAbi,       ///< made for another version of the runtime
@@ -21,7 +21,7 @@ enum class ImageStatus : std::uint8_t {
   kWrongChecksum,  ///< damaged
   kOtherWidth,     ///< its indexes are not of the width that was asked for, or not of the one that it must have
   kNoScratch,      ///< fewer words of working memory than `scratch_words` says
-  kNoMemory,       ///< the block for the state is too small, not aligned to 8, or overlaps the block in use, the image in use or the new one
+  kNoMemory,       ///< the block for the state is null, too small, not aligned to 8, or overlaps the block in use, the image in use or the new one
   // the tables
   kSettings,       ///< firing, idle, hold limit
   kPadding,        ///< bytes between sections or within rows that are not zero

@@ -122,6 +122,20 @@ TYPED_TEST(ImageMindOfEitherKind, SaysWhatTheCompiledMindSays) {
   for (const unsigned often : {held, expired, hidden, contradicted, attended}) EXPECT_GT(often, 20u) << "the drive shows too little";
 }
 
+TYPED_TEST(ImageMindOfEitherKind, RefusesANullImageAndANullBlock) {
+  alignas(8) std::byte block[4096];
+  TypeParam image;
+  mts::SwapReport report;
+  const auto lost = [](const mts::SwapLoss&) {};
+  const std::size_t length = mts::image_length(image_words().data(), image_words().size() * 8);
+  EXPECT_EQ(image.take(nullptr, length, block, sizeof block, report, lost), ImageStatus::kTooShort);
+  EXPECT_EQ(image.take(image_words().data(), length, nullptr, sizeof block, report, lost), ImageStatus::kNoMemory);
+  EXPECT_FALSE(image.has_image());
+  EXPECT_EQ(mts::image_length(nullptr, length), 0u);
+  mts::Image<std::uint16_t> open;
+  EXPECT_EQ(mts::open_image(image_words().data(), length, nullptr, sizeof block, open), ImageStatus::kNoScratch);
+}
+
 constinit mts::ImageMind zeros;
 constinit mts::SmallImageMind small_zeros;
 
