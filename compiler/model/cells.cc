@@ -59,8 +59,13 @@ std::string_view words_for(const Model& model, CellId cell) {
 
 std::optional<RelationId> find_relation(const Draft& draft, std::string_view name) {
   const Entity* entity = draft.names.find(name);
-  if (entity == nullptr || entity->kind != Entity::Kind::kRelation) return std::nullopt;
-  return RelationId{entity->id};
+  if (entity == nullptr) return std::nullopt;
+  if (entity->kind == Entity::Kind::kRelation) return RelationId{entity->id};
+  // Something else has the name, and a relation that statements write rows of was made without one.
+  const auto& all = draft.model.relations;
+  const auto made = std::find_if(all.begin(), all.end(), [name](const Relation& relation) { return relation.name == name; });
+  if (made == all.end()) return std::nullopt;
+  return RelationId{static_cast<std::uint32_t>(made - all.begin())};
 }
 
 RelationId implicit_relation(Draft& draft, std::string_view name, source::Span at) {
@@ -75,7 +80,9 @@ RelationId implicit_relation(Draft& draft, std::string_view name, source::Span a
 }
 
 RelationId need_relation(Draft& draft, std::string_view name, std::string_view what, source::Span at) {
-  if (!find_relation(draft, name) && !std::exchange(draft.library_missing, true)) {
+  const Entity* other = draft.names.find(name);
+  const bool told = other != nullptr && other->twice;   // the library has the relation, but something else has its name
+  if (!find_relation(draft, name) && !told && !std::exchange(draft.library_missing, true)) {
     draft.diagnostics.report(Kind::kLibraryMissing, at, {what, name});
   }
   return implicit_relation(draft, name, at);

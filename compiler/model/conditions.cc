@@ -244,6 +244,8 @@ Outcome Conditions::evaluate_event(const Pattern& pattern, Environment values, C
 
 Outcome Conditions::report_many(const Pattern& pattern, const Operand& operand) {
   const std::string_view text = references_.text(pattern.ref);
+  const Entity* named = draft_.names.find(text);
+  if (named != nullptr && named->twice) return Outcome::kBroken;   // perhaps the other one is meant
   const std::string name = (pattern.sat ? "sat " : "") + std::string(text);
   draft_.diagnostics.report(Kind::kWholeGroup, references_.span(pattern.ref), {text, references_.describe(operand), name, name});
   return Outcome::kBroken;

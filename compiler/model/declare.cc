@@ -276,6 +276,13 @@ void declare_relation(Draft& draft, const syntax::Relation& from) {
   draft.model.relations.push_back(std::move(relation));
 }
 
+/// Commands are rows, also without a library that declares their relation. (Sets have been declared before.)
+void implicit_commands(Draft& draft) {
+  const Entity* other = draft.names.find("Command");
+  if (other != nullptr && other->kind != Entity::Kind::kRelation) draft.diagnostics.report(Kind::kNameOfCommands, other->declared, {"Command"});
+  implicit_relation(draft, "Command", {});
+}
+
 }  // namespace
 
 void declare_all(Draft& draft) {
@@ -283,7 +290,7 @@ void declare_all(Draft& draft) {
     check_clause(draft, tree, statement, relation);
     declare_relation(draft, relation);
   });
-  implicit_relation(draft, "Command", {});  // commands are rows, also without a library that declares the relation
+  implicit_commands(draft);
   choose_exits(draft);
   for (const syntax::Tree& tree : draft.forest.trees) {
     for (const syntax::Statement& statement : tree.statements) {

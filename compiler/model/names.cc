@@ -31,6 +31,10 @@ bool Names::declare(syntax::Name name, Entity entity, diagnostics::Diagnostics& 
   const auto [known, fresh] = add(name.text, entity);
   if (fresh) return true;
   known.twice = true;
+  if (!known.declared.known()) {   // only one thing is declared nowhere
+    diagnostics.report(diagnostics::Kind::kNameOfCommands, name.span, {name.text});
+    return false;
+  }
   // Names are not declared in the order of the text (sets come first). The message is about the later one, but never about the library's.
   source::Span first = known.declared;
   source::Span second = name.span;
