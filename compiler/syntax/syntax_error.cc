@@ -124,9 +124,22 @@ bool SyntaxError::is_range() {
   return sign && say(Kind::kRange, found_.span, {found()});
 }
 
+// `-> y = b weight 0.9, z = c`, `-> y = b weight 90% z = c`, `-> weight 0.9 y = b`: the word, if conclusions follow it.
+std::optional<source::Span> SyntaxError::early_weight() const {
+  if (kind_ == T::kWeight && last_.kind == T::kArrow) return found_.span;
+  const std::size_t number = kind_ == T::kEqual ? 2 : 1;   // behind a comma, or a name
+  if (kind_ != T::kComma && (kind_ != T::kEqual || last_.kind != T::kSubject)) return std::nullopt;
+  for (const std::size_t unit : {0, 1}) {
+    const Token word = stream_.behind(number + unit + 1);
+    if (word.kind == T::kWeight && stream_.behind(number + unit).kind == T::kNumber) return word.span;
+  }
+  return std::nullopt;
+}
+
 // `if gap is near then speed = slow`, `gap near -> ...`, `{ near = ..., far = ... }`
 bool SyntaxError::is_fuzzy() {
   if (statement_ != T::kFuzzy || at_end()) return false;
+  if (const auto weight = early_weight()) return say(Kind::kEarlyWeight, *weight);
   if (kind_ == T::kComma && wants(T::kRightBrace)) return say(Kind::kTermComma, found_.span);
   const bool rule = wants(T::kGiven) && !is_right(kind_) && !near_expected_word();
   const bool arrow = wants(T::kArrow) && kind_ == T::kThen;

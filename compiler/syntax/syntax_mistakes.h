@@ -76,6 +76,7 @@ class SyntaxError {
   [[nodiscard]] source::Span behind_last() const { return {last_.span.file, last_.span.end, last_.span.end}; }
   [[nodiscard]] std::optional<std::string> near_expected_word() const;
   [[nodiscard]] source::Span effect_so_far() const;
+  [[nodiscard]] std::optional<source::Span> early_weight() const;
 
   const TokenStream& stream_;
   const TokenSet& expected_;
