@@ -266,6 +266,10 @@ def what_editors_should_not_do(folder):
     expect(editor.receive()['error']['code'] == -32600, 'what is no message is refused')
     editor.open(main, 'levels a\nfact \u0000\ud7ff\n')
     expect(codes(editor.messages_of(uri)) != [], 'odd characters are messages')
+    for half in ('\ud83d', '\ude00', '\ud83d\ud83d\ude00', '\ude00\ud83d', '\\ud83d\ud83d'):
+        editor.change(uri, f'levels a > b\nfact Seen_{len(half)}   # {half}')
+        [symbol] = [one for one in editor.of(uri, 'documentSymbol') if one['name'].startswith('Seen')]
+        expect(symbol['name'] == f'Seen_{len(half)}', 'half of a surrogate pair in a text is a character')
     expect(editor.leave() == 0, 'and after all that it goes on as before')
 
     for stream, what in ((b'', 'a stream that ends'), (b'Content-Length: 10\r\n\r\n{}', 'a message that is cut off'), (b'Hello\r\n\r\n{}', 'a header without a length'),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <exception>
 #include <stdexcept>
 #include <utility>
@@ -79,8 +80,28 @@ constexpr std::array kQuestions{
     }},
 };
 
+/// The code unit that the escape at `text[at]` stands for, `\uD83D`; 0 if there is no such escape.
+unsigned escaped_unit(std::string_view text, std::size_t at) {
+  unsigned unit = 0;
+  if (text.size() - at < 6 || text[at] != '\\' || text[at + 1] != 'u') return 0;
+  const auto [end, error] = std::from_chars(text.data() + at + 2, text.data() + at + 6, unit, 16);
+  return error == std::errc() && end == text.data() + at + 6 ? unit : 0;
+}
+
+/// Makes halves of surrogate pairs, which an editor may send while a character is cut in two, U+FFFD. The parser refuses them.
+void mend_surrogates(std::string& json) {
+  for (std::size_t at = json.find('\\'); at < json.size(); at = json.find('\\', at + 2)) {
+    const unsigned unit = escaped_unit(json, at);
+    if ((unit & 0xF800u) != 0xD800u) continue;
+    const bool pair = unit < 0xDC00u && (escaped_unit(json, at + 6) & 0xFC00u) == 0xDC00u;
+    if (pair) at += 6;
+    else json.replace(at + 2, 4, "FFFD");
+  }
+}
+
 /// Parses a message; `discarded` if it is not JSON or nests too deeply.
-Json parsed(const std::string& text) {
+Json parsed(std::string text) {
+  mend_surrogates(text);
   bool deep = false;
   Json json = Json::parse(text, [&](int depth, Json::parse_event_t, const Json&) { return !(deep = deep || depth > kMaxNesting); }, false);
   return deep ? Json(Json::value_t::discarded) : json;
@@ -121,9 +142,9 @@ bool Server::run() {
 
 bool Server::listen() {
   do {
-    const auto text = wire_.read();
+    auto text = wire_.read();
     if (!text) return false;
-    Json message = parsed(*text);
+    Json message = parsed(*std::move(text));
     const bool cancels = message.is_object() && message.value("method", Json()) == "$/cancelRequest";
     const Json what = cancels ? message.value("params", Json()) : Json();
     if (what.is_object()) cancelled_.insert(what.value("id", Json()));
