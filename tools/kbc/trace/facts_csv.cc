@@ -149,10 +149,18 @@ void FactsReader::read_comment(const LineReader::Line& line, bool below_header) 
 // True if a line is not a row but blank or a comment.
 bool FactsReader::skips(const LineReader::Line& line) {
   const std::size_t first = line.text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return true;
-  if (line.text[first] != '#') return false;
-  read_comment(line, true);
-  return true;
+  if (first == std::string_view::npos) {
+    if (blank_ == 0) blank_ = line.number;
+    return true;
+  }
+  if (line.text[first] == '#') {
+    read_comment(line, true);
+    return true;
+  }
+  // Blank lines at the end of a file are none that anybody misses.
+  const bool single = columns_.size() == 1 && !timed_;
+  if (single && blank_ != 0 && !std::exchange(blank_told_, true)) report(Kind::kFactsEmptyLine, {"", blank_}, {0, 1}, {});
+  return false;
 }
 
 const FactsRow* FactsReader::next() {

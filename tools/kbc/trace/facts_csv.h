@@ -130,8 +130,10 @@ class FactsReader {
   std::int64_t time_us_ = 0;
   std::uint64_t row_before_ = 0;  // its line; 0 before the first row
   std::uint64_t rows_ = 0;
+  std::uint64_t blank_ = 0;       // the first blank line below the header; 0 before
   bool timed_ = false, failed_ = false, ended_ = false;
   bool sensor_told_ = false;  // a column of facts named a sensor
+  bool blank_told_ = false;
 };
 
 }  // namespace kb::trace
