@@ -1,5 +1,7 @@
 #include "compiler/model/conditions.h"
 
+#include <fmt/format.h>
+
 #include "compiler/model/units.h"
 
 namespace kb::model {
@@ -83,11 +85,24 @@ void Conditions::read_children(const syntax::Cond& cond, Pattern& pattern) {
   }
 }
 
+/// `Step is one`, `Line is hihg`
+void Conditions::report_term(const syntax::Cond& cond, std::uint32_t ref) {
+  constexpr std::string_view kTerms[] = {"low", "zero", "high"};
+  auto message = draft_.diagnostics.report(Kind::kUnknownTerm, cond.term.span, {cond.term.text});
+  const std::string member = references_.named_member(ref, cond.term.text);
+  if (member.empty()) {
+    message.suggest(diagnostics::closest(cond.term.text, kTerms));
+    return;
+  }
+  const std::string asked = fmt::format("{}{}{}", cond.negated ? "not " : "", cond.sat ? "sat " : "", member);
+  message.note(Kind::kMemberAsked, {}, {cond.term.text, references_.text(ref), asked});
+}
+
 /// `X is low`, `X`. False after a message.
 bool Conditions::read_term(const syntax::Cond& cond, Pattern& pattern) {
   const auto term = term_of(cond.term.text);
   if (!term) {
-    draft_.diagnostics.report(Kind::kUnknownTerm, cond.term.span, {cond.term.text});
+    report_term(cond, references_.compile(cond.ref));
     return false;
   }
   pattern.term = *term;

@@ -42,6 +42,7 @@ class Conditions {
 
   std::uint32_t add(Pattern pattern);
   bool read_term(const syntax::Cond& cond, Pattern& pattern);
+  void report_term(const syntax::Cond& cond, std::uint32_t ref);
   Pattern read(const syntax::Cond& cond);
   bool check_row(const Pattern& pattern);
   void read_children(const syntax::Cond& cond, Pattern& pattern);

@@ -276,6 +276,17 @@ bool References::has_row(const Operand& relation, std::string_view name) const {
   return std::any_of(rows.begin(), rows.end(), [&](RowId row) { return draft_.model[row].name == name; });
 }
 
+std::string References::named_member(std::uint32_t pattern, std::string_view name) const {
+  if (!constant(pattern)) return {};
+  const Operand& whole = value(pattern);
+  if (has_row(whole, name)) return std::string(name);
+  if (whole.kind != Operand::Kind::kGroup || draft_.model.groups[whole.whole].dimensions.size() != 1) return {};
+  const SetId set = draft_.model.groups[whole.whole].dimensions.front();
+  const bool variable = std::ranges::any_of(binders_, [&](const Binder& one) { return one.name.text == name && one.set == set; });
+  if (variable) return fmt::format("{}[{}]", text(pattern), name);
+  return draft_.member(set, name) ? fmt::format("{}.{}", text(pattern), name) : std::string();
+}
+
 std::uint32_t References::compile_index(std::uint32_t object, const syntax::Postfix& postfix, source::Span span) {
   const bool lone_star = postfix.arguments.size() == 1 && postfix.arguments.front().star;
   const Operand::Kind kind = constant(object) ? value(object).kind : Operand::Kind::kRow;

@@ -88,6 +88,9 @@ class References {
   [[nodiscard]] static RowState row_state(const Relation& relation);
   /// "a row of `Leg`", when row_state is known.
   [[nodiscard]] std::string describe_row(std::uint32_t pattern) const;
+  /// How `name` is written if it is a member, or a variable over the members, of the group that a pattern stands for, or a row of the
+  /// relation; empty if it is none of these.
+  [[nodiscard]] std::string named_member(std::uint32_t pattern, std::string_view name) const;
   /// As written.
   [[nodiscard]] std::string_view text(std::uint32_t pattern) const { return text(patterns_[pattern].span); }
 

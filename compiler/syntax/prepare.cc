@@ -286,7 +286,9 @@ bool Preparation::mend_sign() {
   const bool asks = in_rule_condition();
   const bool defined = statement_ != TokenKind::kRule && clause_ == TokenKind::kEqual;
   const bool equality = kind() == TokenKind::kEqualEqual || kind() == TokenKind::kNotEqual;
-  if (equality && (defined || (asks && kind(1) == TokenKind::kNumber))) return false;   // a comparison
+  const std::string_view next = at_ + 1 < tokens_.size() ? sources_.text(tokens_[at_ + 1].span) : "";
+  const bool term = kind(1) == TokenKind::kNot || next == "low" || next == "zero" || next == "high";
+  if (equality && (defined || (asks && !term))) return false;   // a comparison
   switch (kind()) {
     case TokenKind::kEqualEqual:
       mended(Kind::kEqualitySign, span, "==",

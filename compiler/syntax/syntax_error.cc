@@ -248,8 +248,16 @@ std::optional<std::string> SyntaxError::near_expected_word() const {
 
 void SyntaxError::report_unexpected() {
   const bool statement = found_.begins_line && is_keyword(kind_) && !begins_statement(kind_) && statement_may_begin(expected_);   // `event Bump`
-  if (statement) say(Kind::kUnknownStatement, found_.span, {text()});
-  else diagnostics_.report(Kind::kUnexpected, place(), {wanted(), found()}).suggest(near_expected_word());
+  if (statement) {
+    say(Kind::kUnknownStatement, found_.span, {text()});
+    return;
+  }
+  auto message = diagnostics_.report(Kind::kUnexpected, place(), {wanted(), found()});
+  const bool level = last_.kind == T::kAt || statement_ == T::kLevels;
+  if (at_end() && begins_statement(kind_) && wants(T::kIdentifier) && (level || last_.kind == T::kDot)) {
+    message.note(Kind::kNameBeginsLine, {}, {text()});   // it could stand for a name there
+  }
+  message.suggest(near_expected_word());
 }
 
 void diagnose_syntax_error(const TokenStream& stream, const TokenSet& expected, diagnostics::Diagnostics& diagnostics) {

@@ -43,9 +43,13 @@ class SyntaxError {
   [[nodiscard]] bool is_rule_head();
   [[nodiscard]] bool is_percept();
   [[nodiscard]] bool is_condition();
+  [[nodiscard]] bool is_comparison();
+  [[nodiscard]] bool is_dotted_term();
+  void note_member(diagnostics::Builder& message, const Token& group, const Token& member, bool negated) const;
   [[nodiscard]] bool is_effect();
   [[nodiscard]] bool is_effect_value();
   [[nodiscard]] bool is_effect_member(source::Span effect, std::string_view group);
+  [[nodiscard]] bool is_verb(source::Span effect);
   [[nodiscard]] bool is_unsigned_effect();
   [[nodiscard]] bool is_route();
   [[nodiscard]] bool is_road();
@@ -77,6 +81,7 @@ class SyntaxError {
   [[nodiscard]] std::optional<std::string> near_expected_word() const;
   [[nodiscard]] source::Span effect_so_far() const;
   [[nodiscard]] std::optional<source::Span> early_weight() const;
+  [[nodiscard]] source::Span last_name_ahead() const;
 
   const TokenStream& stream_;
   const TokenSet& expected_;

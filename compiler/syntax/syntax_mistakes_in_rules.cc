@@ -12,6 +12,14 @@ namespace {
 using diagnostics::Kind;
 using T = TokenKind;
 
+constexpr std::size_t kFarthest = 64;   // tokens that are looked at on one side
+
+/// Words that mean a value and no name.
+bool is_truth(std::string_view word) {
+  constexpr std::string_view kTruths[] = {"on", "off", "true", "false", "yes", "no", "low", "zero", "high"};
+  return std::ranges::find(kTruths, word) != std::end(kTruths);
+}
+
 }  // namespace
 
 bool SyntaxError::is_rule_head() {
@@ -40,19 +48,46 @@ bool SyntaxError::is_condition() {
   }
   const bool inside = condition_may_begin(expected_) || wants(T::kThen) || wants(T::kAnd);
   if (!inside) return false;
-  if (kind_ == T::kComparison || kind_ == T::kGreater || kind_ == T::kEqual || kind_ == T::kEqualEqual ||
-      kind_ == T::kNotEqual) {
-    return say(Kind::kComparison, found_.span, {text()});
-  }
+  if (is_comparison() || is_dotted_term()) return true;
   if (statement_ == T::kRule && kind_ == T::kTilde) return say(Kind::kLikenessInRule, found_.span, {text()});
   if (wants(T::kThen) && at_end()) return say(Kind::kMissingThen, place());
-  if (condition_may_begin(expected_) && kind_ == T::kNumber) return say(Kind::kNumberAsCondition, found_.span);
-  return false;
+  const bool number = kind_ == T::kNumber || (kind_ == T::kMinus && stream_.ahead(1).kind == T::kNumber);
+  if (!condition_may_begin(expected_) || !number) return false;
+  if (statement_ == T::kRow) return say(Kind::kNumberAsCondition, found_.span, {"value of a field", "a field holds a row, a cell, a member or a condition"});
+  return say(Kind::kNumberAsCondition, found_.span, {"condition", "a condition names a cell"});
+}
+
+// `Charge > 0.8`, `Step == one`, `Step == Step.one`
+bool SyntaxError::is_comparison() {
+  const bool equality = kind_ == T::kEqual || kind_ == T::kEqualEqual || kind_ == T::kNotEqual;
+  if (!equality && kind_ != T::kComparison && kind_ != T::kGreater) return false;
+  auto message = diagnostics_.report(Kind::kComparison, found_.span, {text()});
+  const bool dotted = stream_.ahead(2).kind == T::kDot;
+  const bool other = stream_.behind(2).kind == T::kDot || (dotted && text(stream_.ahead(1).span) != text(last_.span));
+  if (equality && !other) note_member(message, last_, stream_.ahead(dotted ? 3 : 1), kind_ == T::kNotEqual);
+  return true;
+}
+
+// `Step is Step.one`
+bool SyntaxError::is_dotted_term() {
+  const bool negated = stream_.behind(2).kind == T::kNot;
+  if (kind_ != T::kDot || last_.kind != T::kIdentifier || stream_.behind(negated ? 3 : 2).kind != T::kIs) return false;
+  const source::Span whole = source::join(last_.span, stream_.ahead(1).span);
+  auto message = diagnostics_.report(Kind::kUnknownTerm, whole, {text(whole)});
+  note_member(message, last_, stream_.ahead(1), negated);
+  return true;
+}
+
+void SyntaxError::note_member(diagnostics::Builder& message, const Token& group, const Token& member, bool negated) const {
+  const bool names = group.kind == T::kIdentifier && member.kind == T::kIdentifier && !member.begins_line;
+  if (!names || is_truth(text(member.span)) || text(member.span) == text(group.span)) return;
+  std::string asked = negated ? "not " : "";
+  asked.append(text(group.span)).append(".").append(text(member.span));
+  message.note(Kind::kPerhapsMember, {}, {text(member.span), text(group.span), asked});
 }
 
 // The effect that is being read, from its beginning to the last token before the error.
 source::Span SyntaxError::effect_so_far() const {
-  constexpr std::size_t kFarthest = 64;
   int depth = 0;
   source::Span whole = last_.span;
   for (std::size_t i = 1; i < kFarthest; ++i) {
@@ -89,8 +124,7 @@ bool SyntaxError::is_effect_value() {
   const source::Span all = source::join(effect, sign && stream_.ahead(1).kind != T::kEnd ? stream_.ahead(1).span : found_.span);
   std::string_view satellite = text(effect).substr(sign ? 1 : 0);
   satellite = satellite.substr(0, satellite.find_last_not_of(" =") + 1);
-  constexpr std::string_view kTruths[] = {"on", "off", "true", "false", "yes", "low", "zero", "high"};
-  if (word && kind_ == T::kIdentifier && std::ranges::find(kTruths, text()) == std::end(kTruths)) return is_effect_member(effect, satellite);
+  if (word && kind_ == T::kIdentifier && !is_truth(text())) return is_effect_member(effect, satellite);
   return say(Kind::kEffectValue, all, {text(all), satellite});
 }
 
@@ -108,12 +142,38 @@ bool SyntaxError::is_effect_member(source::Span effect, std::string_view group) 
   return say(Kind::kEffectMember, all, {text(all), member});
 }
 
+// The last name from the found token on that stands on its line, whole: `sat Lamp`, `Turn.left`, `Turn[left]`.
+source::Span SyntaxError::last_name_ahead() const {
+  source::Span whole;
+  int depth = 0;
+  bool goes_on = false;
+  for (std::size_t i = 0; i < kFarthest; ++i) {
+    const Token token = i == 0 ? found_ : stream_.ahead(i);
+    const bool name = token.kind == T::kIdentifier || (is_keyword(token.kind) && token.kind != T::kThen);
+    const bool part = whole.known() && (depth > 0 || token.kind == T::kDot || token.kind == T::kLeftBracket);
+    if (token.begins_line || !(name || part)) break;
+    whole = part || goes_on ? source::join(whole, token.span) : token.span;
+    depth += is_left(token.kind) ? 1 : is_right(token.kind) ? -1 : 0;
+    goes_on = token.kind == T::kDot || token.kind == T::kSat;
+  }
+  return goes_on || depth > 0 ? source::Span{} : whole;
+}
+
+// `then toggle Lamp`, `then turn off Lamp`
+bool SyntaxError::is_verb(source::Span effect) {
+  const source::Span meant = last_name_ahead();
+  if (!meant.known()) return false;
+  const source::Span all = source::join(effect, meant);
+  return say(Kind::kEffectValue, all, {text(all), text(meant)});
+}
+
 // `then Lamp = 1`, `then Lamp`
 bool SyntaxError::is_unsigned_effect() {
   const bool complete = last_.kind == T::kIdentifier || last_.kind == T::kRightBracket;
   if (!wants(T::kEqual) || !complete || wants(T::kThen)) return false;
   const source::Span effect = effect_so_far();
   if (text(effect).find('\n') != std::string_view::npos) return false;
+  if (is_verb(effect)) return true;
   return say(Kind::kUnsignedEffect, effect, {text(effect)});
 }
 

@@ -11,12 +11,6 @@ namespace {
 
 using diagnostics::Kind;
 
-constexpr std::string_view kTerms[] = {"low", "zero", "high"};
-
-bool one_of(std::string_view word, std::span<const std::string_view> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 }  // namespace
 
 // ---- conditions
@@ -107,11 +101,6 @@ TreeBuilder::Id TreeBuilder::is(Span span, Id sat, Id ref, bool negated, Span te
   Cond& condition = tree_.conds[id];
   condition.negated = negated;
   condition.term = name_at(term);
-  if (!one_of(condition.term.text, kTerms)) {
-    diagnostics_.report(Kind::kUnknownTerm, term, {condition.term.text})
-        .suggest(diagnostics::closest(condition.term.text, kTerms));
-    condition.kind = Cond::Kind::kError;
-  }
   return id;
 }
 

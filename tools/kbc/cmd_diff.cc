@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -74,18 +76,44 @@ std::map<std::string, Driver> drivers_of(const model::Model& model) {
   return drivers;
 }
 
-/// Shows strategies that another controller drives: the same decision may then drive differently. Images do not say what drives.
+/// In the order of their names. Strategies of only one are told of otherwise.
+std::vector<std::string> strategies_of_both(const model::Model& before, const model::Model& after) {
+  const auto names = [](const model::Model& model) {
+    std::set<std::string> all;
+    for (const model::Cell& cell : model.cells) {
+      if (cell.kind == model::CellKind::kStrategy) all.emplace(cell.name);
+    }
+    return all;
+  };
+  const std::set<std::string> old = names(before), now = names(after);
+  std::vector<std::string> both;
+  std::set_intersection(old.begin(), old.end(), now.begin(), now.end(), std::back_inserter(both));
+  return both;
+}
+
+/// How a strategy of both is driven otherwise; an empty call: nothing drives it.
+std::string print_drivers(std::string_view strategy, const Driver& old, const Driver& now) {
+  if (now.call.empty()) return fmt::format("{} is driven only in OLD: {}\n", strategy, old.call);
+  if (old.call.empty()) return fmt::format("{} is driven only in NEW: {}\n", strategy, now.call);
+  if (old.call == now.call) return fmt::format("{} drives otherwise: {} has other terms, values or rules\n", strategy, now.call);
+  return fmt::format("{} drives otherwise: {} instead of {}\n", strategy, now.call, old.call);
+}
+
+/// Shows strategies that another controller drives, or none in one of the two: the same decision may then drive differently. Images do not
+/// say what drives.
 void show_drivers(const driver::Compilation& before, const driver::Compilation& after, const DiffOptions& options, Session& session) {
   if (before.image || after.image) return;
   const std::map<std::string, Driver> old = drivers_of(before.model), now = drivers_of(after.model);
+  const auto driver = [](const std::map<std::string, Driver>& drivers, const std::string& strategy) {
+    const auto found = drivers.find(strategy);
+    return found == drivers.end() ? Driver{} : found->second;
+  };
   nlohmann::ordered_json changed = nlohmann::ordered_json::array();
-  for (const auto& [strategy, driver] : now) {
-    const auto was = old.find(strategy);
-    if (was == old.end() || was->second == driver) continue;
-    const std::string& call = was->second.call;
-    if (options.json) changed.push_back({{"strategy", strategy}, {"old", call}, {"new", driver.call}});
-    else if (call == driver.call) session.print(fmt::format("{} drives otherwise: {} has other terms, values or rules\n", strategy, call));
-    else session.print(fmt::format("{} drives otherwise: {} instead of {}\n", strategy, driver.call, call));
+  for (const std::string& strategy : strategies_of_both(before.model, after.model)) {
+    const Driver was = driver(old, strategy), is = driver(now, strategy);
+    if (was == is) continue;
+    if (options.json) changed.push_back({{"strategy", strategy}, {"old", was.call}, {"new", is.call}});
+    else session.print(print_drivers(strategy, was, is));
   }
   if (!changed.empty()) session.print(nlohmann::ordered_json{{"controllers", changed}}.dump() + "\n");
 }

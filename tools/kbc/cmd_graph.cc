@@ -45,7 +45,7 @@ std::string draw(const GraphOptions& options, const driver::Compilation& compile
   const bool has_map = !compiled.model.maps.empty();
   if (options.levels || (!options.map && !has_map)) return emit::print_levels_dot(compiled.model, compiled.program);
   if (has_map) return emit::print_map_dot(compiled.model);
-  diagnostics.report(Kind::kGraphNoMap, {}, {options.file});
+  diagnostics.report(Kind::kGraphNothing, {}, {options.file, "map to draw; `--levels` draws its rules"});
   return {};
 }
 
@@ -53,6 +53,10 @@ int graph(const GraphOptions& options, Session& session) {
   const auto compiled = session.compile(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   auto diagnostics = session.diagnostics(compiled->sources);
+  if (options.confusion && compiled->program.perception.perceived.empty()) {
+    diagnostics.report(Kind::kGraphNothing, {}, {options.file, "fact that is perceived, so none to compare"});
+    return kErrors;
+  }
   if (options.confusion) return session.deliver(options.output, analysis::print_confusion(compiled->program));
   std::string picture = draw(options, *compiled, diagnostics);
   if (picture.empty()) return kErrors;

@@ -27,24 +27,32 @@ constexpr std::string_view kPlaceholder = "@NAME@";
 
 std::string fill_in(std::string_view text, const std::string& name) { return boost::replace_all_copy(std::string(text), kPlaceholder, name); }
 
-// Names that main.cc uses, names of the template's files (some systems do not distinguish MAP.kb from map.kb), and of what `cmake --build` makes.
-bool is_taken(std::string name) {
-  if (name == "sense" || name == "Controllers") return true;
-  name = source::lower(std::move(name));
-  constexpr std::string_view kTaken[] = {"map", "all", "all_build", "clean", "edit_cache", "help", "install", "package", "package_source",
-                                         "preinstall", "rebuild_cache", "run_tests", "test", "zero_check"};
-  return std::find(std::begin(kTaken), std::end(kTaken), name) != std::end(kTaken);
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+// What `cmake --build` makes besides what a project says.
+bool is_target_of_cmake(std::string_view lower) {
+  constexpr std::string_view kTargets[] = {"all", "all_build", "clean", "edit_cache", "help", "install", "package", "package_source",
+                                           "preinstall", "rebuild_cache", "run_tests", "test", "zero_check"};
+  return std::find(std::begin(kTargets), std::end(kTargets), lower) != std::end(kTargets);
 }
 
-// The name of the project, its main file and its namespace is that of the folder. Empty if the folder's name cannot be one.
+// Why a project cannot have this name, in which `_` stands for `-`; empty if it can. Some systems do not distinguish MAP.kb from map.kb.
+std::string_view fault_of(const std::string& name) {
+  const auto plain = [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; };
+  if (name.empty() || !is_letter(name[0])) return "it does not begin with a letter from `a` to `z`";
+  if (!std::all_of(name.begin(), name.end(), plain)) return "it has other characters than letters from `a` to `z`, digits, `_` and `-`";
+  if (name.back() == '_' || name.find("__") != std::string::npos) return "it ends in `_` or `-`, or has two of them side by side";
+  const std::string lower = source::lower(name);
+  if (lower == "map") return "the file `map.kb` of the project is its map";
+  if (name == "sense" || name == "Controllers") return "`main.cc` of the project has this name for something else";
+  if (is_target_of_cmake(lower)) return "CMake has a target of this name";
+  return is_namespace(name) ? "" : "it is a word of C++, a name of its C library, or one of the namespaces `std`, `mts` and `kb`";
+}
+
+// The name of the project, its main file and its namespace is that of the folder.
 std::string project_name(const std::string& folder) {
   std::error_code ignored;
-  std::string name = fs::weakly_canonical(folder, ignored).filename().string();
-  for (char& c : name) c = c == '-' ? '_' : c;
-  const bool letter = !name.empty() && ((name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z'));
-  const bool plain =
-      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
-  return letter && plain && is_namespace(name) && !is_taken(name) ? name : std::string();
+  return boost::replace_all_copy(fs::weakly_canonical(folder, ignored).filename().string(), "-", "_");
 }
 
 bool is_free(const std::string& folder) {
@@ -88,8 +96,8 @@ bool make_files(const std::set<std::string>& folders, const std::vector<Session:
 int make_project(std::string folder, Session& session) {
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const std::string name = project_name(folder);
-  if (name.empty())
-    session.report(Kind::kBadProjectName, {folder});
+  if (const std::string_view fault = fault_of(name); !fault.empty())
+    session.report(Kind::kBadProjectName, {folder, fault});
   else if (!is_free(folder))
     session.report(Kind::kFolderNotEmpty, {folder});
   if (session.exit_code() != kClean) return kErrors;

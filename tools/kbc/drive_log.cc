@@ -7,6 +7,7 @@
 
 #include "compiler/program/text.h"
 #include "sim/report/row.h"
+#include "tools/kbc/trace/facts_options.h"
 #include "tools/kbc/wire/line.h"
 
 namespace kb::cli {
@@ -17,8 +18,11 @@ std::string knowledge_comment(const std::string& facts, const std::string& knowl
   std::error_code fault;
   const std::filesystem::path folder = std::filesystem::absolute(facts, fault).parent_path();
   const std::string seen = std::filesystem::relative(knowledge, folder, fault).generic_string();
-  const bool writable = seen.find_first_of(",\r\n") == std::string::npos;   // an option ends at a comma
-  return !fault && !seen.empty() && writable ? fmt::format("# kb: {}\n", seen) : std::string();
+  const std::string comment = "# kb: " + seen;
+  trace::FactsOptions read;
+  trace::read_option_comment(comment, read);
+  const bool readable = read.program == seen && seen.find_first_of("\r\n") == std::string::npos;
+  return !fault && !seen.empty() && readable ? comment + "\n" : std::string();
 }
 
 bool DriveLog::open(Part& part) {

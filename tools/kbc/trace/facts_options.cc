@@ -41,6 +41,17 @@ std::string_view slip_in(std::string_view key) {
   return diagnostics::is_slip_of(key, "every") ? "`every`" : "";
 }
 
+/// Where the option at `at` ends: at a comma. The name of a knowledge base may have commas, and ends in `.kb`.
+std::size_t end_of_option(std::string_view line, std::size_t at) {
+  const std::size_t comma = std::min(line.find(',', at), line.size());
+  const std::string_view text = line.substr(at);
+  if (source::trimmed(text.substr(0, text.find(':'))) != "kb") return comma;
+  for (std::size_t end = comma;; end = std::min(line.find(',', end + 1), line.size())) {
+    if (source::trimmed(line.substr(at, end - at)).ends_with(".kb")) return end;
+    if (end == line.size()) return comma;
+  }
+}
+
 }  // namespace
 
 std::optional<std::uint32_t> parse_duration(std::string_view text) {
@@ -58,7 +69,7 @@ std::optional<std::uint32_t> parse_duration(std::string_view text) {
 std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions& options) {
   std::vector<OptionItem> items;
   for (std::size_t at = line.find('#') + 1; at < line.size();) {
-    const std::size_t end = std::min(line.find(',', at), line.size());
+    const std::size_t end = end_of_option(line, at);
     const std::string_view text = line.substr(at, end - at);
     const std::size_t colon = text.find(':');
     const std::string_view key = colon == std::string_view::npos ? std::string_view{} : source::trimmed(text.substr(0, colon));

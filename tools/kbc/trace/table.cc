@@ -99,7 +99,8 @@ bool Table::changed(const Column& now, std::size_t before) const {
 std::vector<std::size_t> Table::shown_cells() const {
   std::vector<std::size_t> shown;
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-    bool show = options_.all || !options_.cells.empty();
+    bool show = options_.all || !options_.cells.empty() ||
+                (!columns_.empty() && columns_.front().tick == 1 && at(0, cell) != program_[cells_[cell]].initial);
     for (std::size_t column = 1; column < columns_.size() && !show; ++column) show = at(column, cell) != at(0, cell);
     if (show) shown.push_back(cell);
   }

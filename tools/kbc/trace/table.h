@@ -21,7 +21,8 @@ struct TickRange {
 /// Reads `7`, `7-19`, `7-` or `-19`; nothing if it is none of these, or the range is empty.
 [[nodiscard]] std::optional<TickRange> parse_ticks(std::string_view text);
 
-/// What a table shows. By default: the cells that change, at the ticks at which one of them does.
+/// What a table shows. By default: the cells that change, also on the first tick, at the ticks at which one of
+/// them does.
 struct TableOptions {
   std::string cells{};  ///< patterns (see `matches`); every cell that matches is shown. Empty: those that change
   std::optional<TickRange> ticks{};  ///< every tick of the range is shown. None: those at which something changes
