@@ -364,45 +364,4 @@ Answer Satisfier::together(std::span<const Goal> goals, std::uint32_t level) {
   return search();
 }
 
-Demands Satisfier::demands(CondId condition, std::uint32_t level, std::size_t most_parts) {
-  begin(level);
-  Demands demands;
-  std::size_t branch = kNothingOpen;
-  most_parts_ = most_parts;
-  demands.possible = assume({condition, true}) && settle(branch);
-  most_parts_ = kAllParts;
-  for (const Change change : trail_) {
-    if (change.place < values_.size()) {
-      demands.each.push_back({change.place, values_[change.place]});
-    } else if (change.place < values_.size() + holder_.size()) {
-      const auto choice = static_cast<std::uint32_t>(change.place - values_.size());
-      demands.holders.push_back({choice, holder_[choice]});
-    }
-  }
-  const auto by_variable = [](const Restriction& a, const Restriction& b) { return a.variable < b.variable; };
-  std::sort(demands.each.begin(), demands.each.end(), by_variable);
-  demands.each.erase(std::unique(demands.each.begin(), demands.each.end()), demands.each.end());
-  std::sort(demands.holders.begin(), demands.holders.end(),
-            [](const Holder& a, const Holder& b) { return a.choice < b.choice; });
-  return demands;
-}
-
-bool compatible(const Demands& a, const Demands& b) {
-  for (std::size_t i = 0, j = 0; i < a.holders.size() && j < b.holders.size();) {
-    const Holder& x = a.holders[i];
-    const Holder& y = b.holders[j];
-    if (x.choice == y.choice && x.variable != y.variable) return false;
-    i += x.choice <= y.choice ? 1 : 0;
-    j += y.choice <= x.choice ? 1 : 0;
-  }
-  for (std::size_t i = 0, j = 0; i < a.each.size() && j < b.each.size();) {
-    const Restriction& x = a.each[i];
-    const Restriction& y = b.each[j];
-    if (x.variable == y.variable && (x.allowed & y.allowed) == 0) return false;
-    i += x.variable <= y.variable ? 1 : 0;
-    j += y.variable <= x.variable ? 1 : 0;
-  }
-  return a.possible && b.possible;
-}
-
 }  // namespace kb::analysis
