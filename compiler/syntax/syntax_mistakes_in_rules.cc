@@ -149,7 +149,8 @@ source::Span SyntaxError::last_name_ahead() const {
   bool goes_on = false;
   for (std::size_t i = 0; i < kFarthest; ++i) {
     const Token token = i == 0 ? found_ : stream_.ahead(i);
-    const bool name = token.kind == T::kIdentifier || (is_keyword(token.kind) && token.kind != T::kThen);
+    if (token.kind == T::kOn && !token.begins_line) continue;   // `switch on Lamp`
+    const bool name = token.kind == T::kIdentifier || token.kind == T::kSat;
     const bool part = whole.known() && (depth > 0 || token.kind == T::kDot || token.kind == T::kLeftBracket);
     if (token.begins_line || !(name || part)) break;
     whole = part || goes_on ? source::join(whole, token.span) : token.span;
