@@ -44,6 +44,17 @@ TEST(Table, shows_by_default_what_changes_and_when) {
             "  Move       -1    1    1   -1\n");
 }
 
+TEST(Table, shows_what_changes_on_the_first_tick) {
+  Trial run(testing::sample_program());
+  Table table(run.program(), {});
+  for (int i = 0; i < 2; ++i) {
+    const program::Tick tick = run({{"Line", 0.9f}});
+    EXPECT_TRUE(table.add(tick, [&](program::CellId cell) { return run.interpreter().value(cell); }));
+  }
+  EXPECT_NE(table.print().find("  Line "), std::string::npos) << table.print();
+  EXPECT_EQ(table.print().find("Safe"), std::string::npos) << table.print();
+}
+
 TEST(Table, shows_every_chosen_cell_at_every_chosen_tick) {
   EXPECT_EQ(table_of({.cells = "Safe Move", .ticks = TickRange{2, 4}}),
             "tick          2    3    4\n"

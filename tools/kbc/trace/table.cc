@@ -96,11 +96,17 @@ bool Table::changed(const Column& now, std::size_t before) const {
   return now.runs != last.runs && (now.unsaid || last.unsaid);
 }
 
+// Whether the first tick has changed the cell. Recordings say of most facts on every tick that they are false: these are left out.
+bool Table::changed_at_once(std::size_t cell) const {
+  if (columns_.empty() || columns_.front().tick != 1) return false;
+  const program::Cell& known = program_[cells_[cell]];
+  return known.kind == CellKind::kFact ? at(0, cell) > 0.0f : at(0, cell) != known.initial;
+}
+
 std::vector<std::size_t> Table::shown_cells() const {
   std::vector<std::size_t> shown;
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-    bool show = options_.all || !options_.cells.empty() ||
-                (!columns_.empty() && columns_.front().tick == 1 && at(0, cell) != program_[cells_[cell]].initial);
+    bool show = options_.all || !options_.cells.empty() || changed_at_once(cell);
     for (std::size_t column = 1; column < columns_.size() && !show; ++column) show = at(column, cell) != at(0, cell);
     if (show) shown.push_back(cell);
   }

@@ -21,8 +21,8 @@ struct TickRange {
 /// Reads `7`, `7-19`, `7-` or `-19`; nothing if it is none of these, or the range is empty.
 [[nodiscard]] std::optional<TickRange> parse_ticks(std::string_view text);
 
-/// What a table shows. By default: the cells that change, also on the first tick, at the ticks at which one of
-/// them does.
+/// What a table shows. By default: the cells that change, on the first tick too, at the ticks at which one of them
+/// does.
 struct TableOptions {
   std::string cells{};  ///< patterns (see `matches`); every cell that matches is shown. Empty: those that change
   std::optional<TickRange> ticks{};  ///< every tick of the range is shown. None: those at which something changes
@@ -48,6 +48,7 @@ class Table {
     bool unsaid;  // the strategy that runs does not follow from certainties
   };
   [[nodiscard]] float at(std::size_t column, std::size_t cell) const { return values_[column * cells_.size() + cell]; }
+  [[nodiscard]] bool changed_at_once(std::size_t cell) const;
   [[nodiscard]] std::vector<std::size_t> shown_cells() const;
   [[nodiscard]] bool changed(const Column& now, std::size_t before) const;
   [[nodiscard]] std::vector<std::string> entries(std::size_t column, const std::vector<std::size_t>& cell_of_line) const;
