@@ -34,8 +34,8 @@ class CircleQuestions {
         if (never(cell) && !subject_.reported[program::index(cell)]) follow(cell);
       }
     }
-    for (std::size_t i = 0; i < never_.size(); ++i) {   // all else is a consequence of what has been said
-      if (never_[i]) subject_.reported[i] = true;
+    for (std::uint32_t i = program_.facts; i < never_.size(); ++i) {   // all else is a consequence of what has been said, also for strategies
+      if (never_[i] || (i >= program_.first_strategy() && subject_.written_only_in_vain(CellId{i}))) subject_.reported[i] = true;
     }
   }
 

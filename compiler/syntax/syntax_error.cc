@@ -129,7 +129,7 @@ std::optional<source::Span> SyntaxError::early_weight() const {
   if (kind_ == T::kWeight && last_.kind == T::kArrow) return found_.span;
   const std::size_t number = kind_ == T::kEqual ? 2 : 1;   // behind a comma, or a name
   if (kind_ != T::kComma && (kind_ != T::kEqual || last_.kind != T::kSubject)) return std::nullopt;
-  for (const std::size_t unit : {0, 1}) {
+  for (const std::size_t unit : {std::size_t{0}, std::size_t{1}}) {
     const Token word = stream_.behind(number + unit + 1);
     if (word.kind == T::kWeight && stream_.behind(number + unit).kind == T::kNumber) return word.span;
   }
