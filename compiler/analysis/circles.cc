@@ -67,7 +67,7 @@ class CircleQuestions {
   }
 
   void report(std::vector<CellId> circle) {
-    std::ranges::rotate(circle, std::ranges::min_element(circle));
+    std::rotate(circle.begin(), std::min_element(circle.begin(), circle.end()), circle.end());
     for (const CellId cell : circle) subject_.reported[program::index(cell)] = true;
     const program::Cell& cell = program_[circle.front()];
     const bool at_rule = subject_.in_library(cell.declared) && !raiser(circle.front()).standard;
