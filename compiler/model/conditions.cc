@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compiler/model/units.h"
 
 namespace kb::model {
@@ -39,10 +41,10 @@ CondId join_conds(Model& model, Cond::Op op, std::vector<CondId> conds) {
 namespace {
 
 std::optional<syntax::Term> term_of(std::string_view word) {
-  if (word.empty() || word == "high") return syntax::Term::kHigh;
-  if (word == "low") return syntax::Term::kLow;
-  if (word == "zero") return syntax::Term::kZero;
-  return std::nullopt;
+  if (word.empty()) return syntax::Term::kHigh;
+  const auto found = std::find(syntax::kTermWords.begin(), syntax::kTermWords.end(), word);
+  if (found == syntax::kTermWords.end()) return std::nullopt;
+  return static_cast<syntax::Term>(found - syntax::kTermWords.begin());
 }
 
 Cond::Op event_of(syntax::Cond::Kind kind) {
@@ -87,11 +89,10 @@ void Conditions::read_children(const syntax::Cond& cond, Pattern& pattern) {
 
 /// `Step is one`, `Line is hihg`
 void Conditions::report_term(const syntax::Cond& cond, std::uint32_t ref) {
-  constexpr std::string_view kTerms[] = {"low", "zero", "high"};
   auto message = draft_.diagnostics.report(Kind::kUnknownTerm, cond.term.span, {cond.term.text});
   const std::string member = references_.named_member(ref, cond.term.text);
   if (member.empty()) {
-    message.suggest(diagnostics::closest(cond.term.text, kTerms));
+    message.suggest(diagnostics::closest(cond.term.text, syntax::kTermWords));
     return;
   }
   const std::string asked = fmt::format("{}{}{}", cond.negated ? "not " : "", cond.sat ? "sat " : "", member);

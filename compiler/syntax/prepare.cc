@@ -287,7 +287,7 @@ bool Preparation::mend_sign() {
   const bool defined = statement_ != TokenKind::kRule && clause_ == TokenKind::kEqual;
   const bool equality = kind() == TokenKind::kEqualEqual || kind() == TokenKind::kNotEqual;
   const std::string_view next = at_ + 1 < tokens_.size() ? sources_.text(tokens_[at_ + 1].span) : "";
-  const bool term = next == "low" || next == "zero" || next == "high";
+  const bool term = std::find(kTermWords.begin(), kTermWords.end(), next) != kTermWords.end();
   if (equality && (defined || (asks && !term))) return false;   // a comparison
   switch (kind()) {
     case TokenKind::kEqualEqual:

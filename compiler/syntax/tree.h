@@ -2,6 +2,7 @@
 // tree is a value. All `text` fields are views into `source::Sources`, which must outlive the tree.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -70,6 +71,8 @@ struct Shape {
 };
 
 enum class Term : std::uint8_t { kLow, kZero, kHigh };
+/// The words for them, in that order.
+inline constexpr std::array<std::string_view, 3> kTermWords{"low", "zero", "high"};
 
 /// A condition. `and` and `or` are flat (two or more children, none of the same kind unless parenthesised).
 struct Cond {

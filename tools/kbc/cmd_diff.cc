@@ -5,11 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/diagnostics/display.h"
@@ -76,21 +75,6 @@ std::map<std::string, Driver> drivers_of(const model::Model& model) {
   return drivers;
 }
 
-/// In the order of their names. Strategies of only one are told of otherwise.
-std::vector<std::string> strategies_of_both(const model::Model& before, const model::Model& after) {
-  const auto names = [](const model::Model& model) {
-    std::set<std::string> all;
-    for (const model::Cell& cell : model.cells) {
-      if (cell.kind == model::CellKind::kStrategy) all.emplace(cell.name);
-    }
-    return all;
-  };
-  const std::set<std::string> old = names(before), now = names(after);
-  std::vector<std::string> both;
-  std::set_intersection(old.begin(), old.end(), now.begin(), now.end(), std::back_inserter(both));
-  return both;
-}
-
 /// How a strategy of both is driven otherwise; an empty call: nothing drives it.
 std::string print_drivers(std::string_view strategy, const Driver& old, const Driver& now) {
   if (now.call.empty()) return fmt::format("{} is driven only in OLD: {}\n", strategy, old.call);
@@ -100,17 +84,18 @@ std::string print_drivers(std::string_view strategy, const Driver& old, const Dr
 }
 
 /// Shows strategies that another controller drives, or none in one of the two: the same decision may then drive differently. Images do not
-/// say what drives.
-void show_drivers(const driver::Compilation& before, const driver::Compilation& after, const DiffOptions& options, Session& session) {
+/// say what drives. Strategies of only one are told of already.
+void show_drivers(const driver::Compilation& before, const driver::Compilation& after, const trace::DecisionDiffer& differ, const DiffOptions& options, Session& session) {
   if (before.image || after.image) return;
-  const std::map<std::string, Driver> old = drivers_of(before.model), now = drivers_of(after.model);
-  const auto driver = [](const std::map<std::string, Driver>& drivers, const std::string& strategy) {
-    const auto found = drivers.find(strategy);
-    return found == drivers.end() ? Driver{} : found->second;
-  };
+  std::map<std::string, std::pair<Driver, Driver>> drivers;   // old and new
+  for (auto&& [strategy, driver] : drivers_of(before.model)) drivers[strategy].first = std::move(driver);
+  for (auto&& [strategy, driver] : drivers_of(after.model)) drivers[strategy].second = std::move(driver);
+  for (const trace::OnlyIn* only : {&differ.only_before(), &differ.only_after()}) {
+    for (const std::string& strategy : only->strategies) drivers.erase(strategy);
+  }
   nlohmann::ordered_json changed = nlohmann::ordered_json::array();
-  for (const std::string& strategy : strategies_of_both(before.model, after.model)) {
-    const Driver was = driver(old, strategy), is = driver(now, strategy);
+  for (const auto& [strategy, pair] : drivers) {
+    const auto& [was, is] = pair;
     if (was == is) continue;
     if (options.json) changed.push_back({{"strategy", strategy}, {"old", was.call}, {"new", is.call}});
     else session.print(print_drivers(strategy, was, is));
@@ -156,7 +141,7 @@ int diff(const DiffOptions& options, Session& session) {
   trace::DecisionDiffer differ({before->program, *old_engine}, {after->program, *new_engine}, inputs);
   if (options.json) session.print(trace::print_json(differ.only_before(), differ.only_after()) + "\n");
   else session.print(trace::print(differ.only_before(), differ.only_after(), options.most));
-  show_drivers(*before, *after, options, session);
+  show_drivers(*before, *after, differ, options, session);
   std::vector<trace::MapChange> maps = trace::map_changes(before->model, after->model);   // an image has none
   trace::MapWatch watch(maps, {before->program, *old_engine}, {after->program, *new_engine});
   DiffCounts counts;

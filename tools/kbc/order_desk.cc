@@ -77,10 +77,10 @@ void OrderDesk::follow_mission() {
     phase_ = Phase::kOver;
   }
   if (reached_ != before) since_m_ = 0.0;
-  const bool lost = phase_ == Phase::kDriving && driver.lost() && !driver.reports_any() && !exchange_.waits() && !vehicle_.task().paused;
-  lost_us_ = lost ? lost_us_.value_or(t_us_) : std::optional<std::int64_t>();
-  const bool stops = phase_ == Phase::kDriving && driver.strategy() != nullptr && driver.strategy()->name == "Stop" && !driver.in_crossing() && !driver.reports_any();
-  stopped_us_ = stops ? stopped_us_.value_or(t_us_) : std::optional<std::int64_t>();
+  const auto keep_since = [this](bool holds, std::optional<std::int64_t>& since_us) { since_us = holds ? since_us.value_or(t_us_) : std::optional<std::int64_t>(); };
+  const bool says_nothing = phase_ == Phase::kDriving && !driver.reports_any();
+  keep_since(says_nothing && driver.lost() && !exchange_.waits() && !vehicle_.task().paused, lost_us_);
+  keep_since(says_nothing && driver.strategy() != nullptr && driver.strategy()->name == "Stop" && !driver.in_crossing(), stopped_us_);
 }
 
 vda5050::Progress OrderDesk::progress() const {
