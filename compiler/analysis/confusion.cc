@@ -79,9 +79,9 @@ struct Confusions::Impl {
   }
 
   bool exclusive(const Definition& a, const Definition& b, double limit) {
-    constexpr std::size_t kMostPairs = 256;
+    constexpr std::size_t kMostProducts = 256;
     constexpr double kRounding = 1e-6;
-    if (a.cut || b.cut || a.terms.size() * b.terms.size() > kMostPairs) return false;
+    if (a.cut || b.cut || a.terms.size() * b.terms.size() > kMostProducts) return false;
     const auto [known, fresh] = exclusives.try_emplace({&a, &b, limit});
     if (!fresh) return known->second;
     const Asked asked{limit - 1.0 - kRounding, limit - 1.0};
