@@ -32,6 +32,7 @@ void diagnose(const model::Model& model, const program::Program& program, const 
   diagnose_conditions(subject);
   diagnose_effects(subject);
   diagnose_silenced(subject);
+  diagnose_taken_back(subject);
   diagnose_conflicts(subject);
   diagnose_lazy(subject);
   diagnose_perception(subject);
