@@ -10,6 +10,7 @@ Recorder::Recorder(const Program& program, std::uint64_t wanted) : program_(prog
 }
 
 void Recorder::level_evaluated(const Interpreter& interpreter, std::uint32_t level) {
+  if (watched_ != CellId::kNone) found_[level] = interpreter.value(watched_);
   if (interpreter.ticks() + 1 != wanted_) return;
   LevelRecord& kept = record_.levels[level];
   for (std::uint32_t i = 0; i < program_.cells.size(); ++i) kept.cf.push_back(interpreter.value(CellId{i}));
@@ -22,6 +23,7 @@ void Recorder::level_evaluated(const Interpreter& interpreter, std::uint32_t lev
 }
 
 void Recorder::tick_ended(const Tick& tick, const Interpreter& interpreter) {
+  if (watched_ != CellId::kNone) found_.back() = interpreter.value(watched_);
   if (tick.number > wanted_) return;
   note_writes(tick);
   if (tick.number < wanted_) {

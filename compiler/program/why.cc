@@ -29,6 +29,17 @@ std::string seconds(std::int64_t time_us, std::int64_t other_us) {
   return text + " s";
 }
 
+/// The threshold that the fact had to pass on this tick to be seen.
+float limit_of(const Program& program, const Record& record, CellId fact) {
+  const auto firing = static_cast<float>(program.settings.firing);
+  const std::vector<float>& before = record.levels.front().cf;  // no rule has written yet
+  const auto& satellites = program[fact].satellites;
+  const bool attended = seen_before(record, fact) ||
+                        std::any_of(satellites.begin(), satellites.end(), [&](CellId s) { return before[index(s)] >= firing; });
+  const Thresholds limits = thresholds(program[fact]);
+  return attended ? limits.attended : limits.plain;
+}
+
 class Explainer {
  public:
   Explainer(const Program& program, const Record& record, std::uint32_t level)
@@ -79,20 +90,9 @@ class Explainer {
     return text;
   }
 
-  /// The threshold that the fact had to pass on this tick.
-  [[nodiscard]] float threshold(CellId fact) const {
-    const std::vector<float>& before = record_.levels.front().cf;  // no rule has written yet
-    const auto& satellites = program_[fact].satellites;
-    const bool attended = seen_before(record_, fact) || std::any_of(satellites.begin(), satellites.end(), [&](CellId s) {
-                            return before[index(s)] >= firing_;
-                          });
-    const Thresholds limits = thresholds(program_[fact]);
-    return attended ? limits.attended : limits.plain;
-  }
-
   [[nodiscard]] std::string in_view(const Cond& cond, bool wanted) const {
     const bool came = record_.event[index(cond.cell)];
-    const float cf = value(cond.cell), limit = threshold(cond.cell);
+    const float cf = value(cond.cell), limit = limit_of(program_, record_, cond.cell);
     const std::string text =
         fmt::format("`{}` {}, at {}", name(cond.cell), came ? "came into view" : "is seen", number(cf, limit));
     if (cond.op == Cond::Op::kSeen) return wanted ? text : text + ", must not be above " + number(limit, cf);
@@ -104,7 +104,7 @@ class Explainer {
   [[nodiscard]] std::string out_of_view(const Cond& cond, bool wanted) const {
     const bool went = record_.lost[index(cond.cell)], for_lost = cond.op == Cond::Op::kLost;
     if (for_lost && !went) return fmt::format("`{}` is not seen, and was not before", name(cond.cell));
-    const float cf = value(cond.cell), limit = threshold(cond.cell);
+    const float cf = value(cond.cell), limit = limit_of(program_, record_, cond.cell);
     return fmt::format("`{}` {}, at {}, seen above {}{}", name(cond.cell), went ? "went out of view" : "is not seen",
                        number(cf, limit), number(limit, cf), for_lost && !wanted ? ", but must not" : "");
   }
@@ -242,7 +242,10 @@ std::string strategy_text(const Program& program, const Record& record, const St
   if (story.dispatched && active) return "it is wanted, and nothing before it is";
   if (story.dispatched) {
     const std::string reset = silenced(program, record, control);
-    return (reset.empty() ? "nothing is wanted" : reset) + ", and it goes on or is the idle strategy";
+    return (reset.empty() ? "nothing is wanted" : reset) + (program.settings.idle == Idle::kHold ? ", and it goes on (`set idle = hold`)" : ", and it is the idle strategy");
+  }
+  if (record.tick.status == Status::kHoldExpired) {
+    return fmt::format("{}, and no strategy goes on for longer than `hold_limit`, {}", what_fails(story.rule.reasons), seconds(program.settings.hold_limit_us, 0));
   }
   if (active) return "a strategy of higher priority is active too";
   if (story.rule.outcome == Outcome::kSilenced) return "it is wanted, but " + silenced(program, record, control);
@@ -271,10 +274,12 @@ CellStory explain_cell(const Program& program, const Record& record, CellId cell
   CellStory story;
   story.cell = cell;
   story.value = record.cf_after[index(cell)];
-  const std::string value = number(story.value, static_cast<float>(program.settings.firing));
+  const bool fact = program[cell].kind == CellKind::kFact;
+  const float limit = fact ? limit_of(program, record, cell) : static_cast<float>(program.settings.firing);
+  const std::string value = number(story.value, limit);
   story.text = fmt::format("`{}` is {} after tick {}: ", program[cell].name, value, record.tick.number);
   const LastWrite& last = record.last_write[index(cell)];
-  if (program[cell].kind == CellKind::kFact) {
+  if (fact) {
     const bool seen = record.seen[index(cell)];
     const auto& perceived = program.perception.perceived;
     const bool made = std::any_of(perceived.begin(), perceived.end(), [cell](const Perceived& one) { return one.fact == cell; });

@@ -58,6 +58,13 @@ class Recorder final : public Interpreter::Observer {
   /// Must be called after every tick up to the wanted one; later ticks are ignored.
   void tick_ended(const Tick& tick, const Interpreter& interpreter);
   [[nodiscard]] const Record& record() const { return record_; }
+  /// From now on follows this cell through every tick.
+  void watch(CellId cell) {
+    watched_ = cell;
+    found_.assign(program_.levels.size() + 1, 0.0f);
+  }
+  /// What the rules of each level found in the watched cell on the last tick, and behind them what the tick left in it.
+  [[nodiscard]] const std::vector<float>& found() const { return found_; }
   /// Forgets what was recorded of the wanted tick, which has ended, and wants the next one.
   void go_on();
 
@@ -66,6 +73,8 @@ class Recorder final : public Interpreter::Observer {
   const Program& program_;
   std::uint64_t wanted_;
   Record record_;
+  CellId watched_ = CellId::kNone;
+  std::vector<float> found_;
 };
 
 /// One condition, and why it holds or not: "`Safe` is 0.10, needs 0.50".

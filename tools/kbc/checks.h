@@ -69,7 +69,7 @@ inline CLI::Validator is_count(std::uint32_t least, std::uint32_t most) {
 }
 
 inline CLI::Validator is_duration() {
-  return refuse_if([](const std::string& text) { return trace::parse_duration(text) ? "" : diagnostics::quoted_code(text) + " is no length of time, such as 10ms"; });
+  return refuse_if([](const std::string& text) { return trace::parse_duration(text) ? "" : diagnostics::quoted_code(text) + " is no length of time from 1 us to 71 min, such as 10ms"; });
 }
 
 /// A length that is not negative, in metres: no other unit can be written.

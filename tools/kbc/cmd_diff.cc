@@ -152,6 +152,10 @@ int diff(const DiffOptions& options, Session& session) {
     progress.update(counts.ticks);
   }
   if (input.reader->failed()) return kErrors;
+  if (counts.ticks == 0) {   // nothing can differ
+    diagnostics.report(diagnostics::Kind::kWhyNoTick, {}, {"1", options.recorded.path(), "0 ticks"});
+    return kErrors;
+  }
   show_maps(maps, options, session);
   summarise(options, counts, session);
   return counts.differ != 0 ? static_cast<int>(kErrors) : session.exit_code();

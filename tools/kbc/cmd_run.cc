@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "compiler/diagnostics/display.h"
@@ -37,6 +39,7 @@ struct RunOptions {
 struct Faults {
   std::uint64_t count = 0, tick = 0;
   std::int64_t time_us = 0;
+  std::string what;   // the first of them, if that is known
 
   void add(std::uint64_t more, const program::Tick& at) {
     if (count == 0) {
@@ -46,7 +49,7 @@ struct Faults {
     count += more;
   }
   [[nodiscard]] std::string text(std::string_view one) const {
-    const std::string first = count == 0 ? "" : fmt::format(" (first at tick {}, {:g} s)", tick, static_cast<double>(time_us) / 1e6);
+    const std::string first = count == 0 ? "" : fmt::format(" (first at tick {}, {:g} s{}{})", tick, static_cast<double>(time_us) / 1e6, what.empty() ? "" : ": ", what);
     return diagnostics::counted(count, one) + first;
   }
 };
@@ -56,10 +59,14 @@ struct Counts {
   Faults conflicts, bad_facts, bad_readings;
   trace::Looks looks;
 
-  void add(const program::Tick& tick, const trace::Looks& so_far) {
+  void add(const program::Tick& tick, std::span<const float> facts, const program::Program& program, const trace::Looks& so_far) {
     ++ticks;
     events += tick.events.size();
     conflicts.add(tick.conflicts.size(), tick);
+    if (tick.bad_facts > 0 && bad_facts.count == 0) {
+      const auto bad = std::ranges::find_if(facts, [](float certainty) { return !(certainty >= -1.0f && certainty <= 1.0f); });
+      if (bad != facts.end()) bad_facts.what = fmt::format("`{}` is {}", program.cells[static_cast<std::size_t>(bad - facts.begin())].name, *bad);
+    }
     bad_facts.add(tick.bad_facts, tick);
     bad_readings.add(so_far.bad - looks.bad, tick);
     looks = so_far;
@@ -118,7 +125,7 @@ bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& sens
     }
     if (!take(tick, engine, program, sinks, diagnostics)) return false;
     if (sinks.trace && sinks.trace->failed()) break;
-    counts.add(tick, senses.looks());
+    counts.add(tick, facts, program, senses.looks());
     progress.update(counts.ticks);
   }
   return !reader.failed();

@@ -84,9 +84,11 @@ bool write_reports(const TestOptions& options, const std::vector<TestCase>& case
 
 int test(const TestOptions& options, Session& session) {
   const source::Sources none;
-  auto diagnostics = session.diagnostics(none);
+  std::vector<diagnostics::Diagnostic> not_found;
+  diagnostics::Keeping keeping(not_found);
+  diagnostics::Diagnostics diagnostics(none, keeping, session.warnings());
   std::vector<TestCase> cases = trace::find_cases(options.roots, options.filters, diagnostics);
-  const std::string not_found = diagnostics.failed() ? session.last_error() : "";
+  session.pass_on(none, not_found);
   for (const TestCase& one : cases) {
     session.note_input(one.facts);
     session.note_input(one.trace);
@@ -109,9 +111,10 @@ int test(const TestOptions& options, Session& session) {
   if (!whole) return kInterrupted;
   std::vector<CaseResult>& results = runner.results();
   if (!cases.empty()) tell(counted(results));
-  if (!not_found.empty()) {   // also in JUnit, which would otherwise show success
+  for (const diagnostics::Diagnostic& message : not_found) {   // also in JUnit, which would otherwise show success
+    if (message.severity != diagnostics::Severity::kError) continue;
     cases.emplace_back().name = "finding the cases";
-    results.push_back({.outcome = CaseResult::Outcome::kBroken, .report = not_found});
+    results.push_back({.outcome = CaseResult::Outcome::kBroken, .report = message.message});
   }
   if (!write_reports(options, cases, results, runner.coverage(), session)) return kErrors;
   return std::all_of(results.begin(), results.end(), is_well) ? session.exit_code() : static_cast<int>(kErrors);

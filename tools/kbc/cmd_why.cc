@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,8 +44,10 @@ std::optional<trace::Question> understand(const WhyOptions& options, const progr
     if (!question.rules.empty()) return question;
     diagnostics.report(Kind::kWhyNoRule, {}, {options.rule}).suggest(trace::closest_rule(program, options.rule));
   } else if (!options.cell.empty()) {
-    question.cell = names.find(options.cell);
-    if (question.cell != CellId::kNone) return question;
+    const CellId cell = names.find(options.cell);
+    const bool runs = cell != CellId::kNone && program[cell].kind == program::CellKind::kStrategy;
+    (runs ? question.strategy : question.cell) = cell;   // of a strategy's cell there is no more to say
+    if (cell != CellId::kNone) return question;
     diagnostics.report(Kind::kWhyNoCell, {}, {options.cell}).suggest(names.closest(options.cell));
   } else if (!options.strategy.empty()) {
     question.strategy = names.find(options.strategy);
@@ -64,6 +67,7 @@ class Replay {
   Replay(const program::Program& program, const trace::Question& question, std::uint64_t tick)
       : program_(program), question_(question), tick_(tick), recorder_(program, std::max<std::uint64_t>(tick, 1)), senses_(program, trace::EngineKind::kInterpreter) {
     if (tick == 0) search_.emplace(program, question);
+    if (asks_for(program::CellKind::kSatellite)) recorder_.watch(question.cell);
   }
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
@@ -79,16 +83,24 @@ class Replay {
       const program::Tick tick = interpreter.tick(facts, row->dt_us);
       recorder_.tick_ended(tick, interpreter);
       if (search_) search_->consider(tick, recorder_);
-      if (question_.cell != CellId::kNone && record().tick.number == tick.number) sensed_ = senses_.explain(question_.cell);
+      if (asks_for(program::CellKind::kFact) && record().tick.number == tick.number) sensed_ = given(facts[index(question_.cell)]);
     }
     return !reader.failed() && (search_ ? reader.rows() > 0 : reader.rows() == tick_);
   }
   [[nodiscard]] const program::Record& record() const { return search_ ? search_->record(recorder_) : recorder_.record(); }
   [[nodiscard]] const std::optional<trace::WhySearch>& search() const { return search_; }
-  // How the cell in question was perceived; empty if it was not.
+  // How the fact in question was perceived, or badly given; empty if neither.
   [[nodiscard]] const std::string& sensed() const { return sensed_; }
 
  private:
+  [[nodiscard]] bool asks_for(program::CellKind kind) const { return question_.cell != CellId::kNone && program_[question_.cell].kind == kind; }
+  // How the fact in question was perceived, or what is wrong with how it was given.
+  [[nodiscard]] std::string given(float certainty) const {
+    const std::string perceived = senses_.explain(question_.cell);
+    const bool good = certainty >= -1.0f && certainty <= 1.0f;
+    return !perceived.empty() || good ? perceived : fmt::format("  given as {}, which counts as {}\n", certainty, std::isnan(certainty) ? "0" : certainty > 0.0f ? "1" : "-1");
+  }
+
   const program::Program& program_;
   const trace::Question& question_;
   std::uint64_t tick_;   // 0: to be searched
@@ -119,6 +131,7 @@ int why(const WhyOptions& options, Session& session) {
   if (replay.search()) {
     answer.ticks = replay.search()->ticks();
     answer.values = replay.search()->values();
+    answer.within = replay.search()->within();
   }
   if (options.json) {
     session.print(trace::print_json(program, replay.record(), answer) + "\n");
@@ -137,8 +150,8 @@ Run setup_why(CLI::App& app) {
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   add_recorded_options(app, options->recorded);
   auto* tick = app.add_option("--tick", options->tick,
-                              "The tick in question; the first is 1. Without it: on which ticks the rule fired, the cell changed or the strategy "
-                              "ran, and why on the first of them, or why not on the tick on which it came nearest")
+                              "The tick in question; the first is 1. Without it: on which ticks the rule fired, the satellite changed, the fact was seen or the "
+                              "strategy ran, and why on the first of them, or why not on the tick on which it came nearest")
                    ->type_name("TICK")
                    ->transform(is_tick());
   auto* rule = app.add_option("--rule", options->rule,

@@ -55,8 +55,12 @@ CellId CellNames::find(std::string_view name) const {
 
 std::optional<std::string> CellNames::closest(std::string_view name, std::optional<program::CellKind> kind) const {
   std::vector<std::string_view> candidates;
-  for (const program::Cell& cell : program_.cells)
-    if (!kind || cell.kind == *kind) candidates.push_back(cell.name);
+  const std::string members = plain_name(name) + ".";
+  for (const program::Cell& cell : program_.cells) {
+    if (kind && cell.kind != *kind) continue;
+    if (plain_name(cell.name).starts_with(members)) return std::string(cell.name);
+    candidates.push_back(cell.name);
+  }
   return diagnostics::closest(name, candidates);
 }
 

@@ -22,7 +22,7 @@ class CellNames {
   explicit CellNames(const program::Program& program);
   /// `CellId::kNone` if there is none.
   [[nodiscard]] program::CellId find(std::string_view name) const;
-  /// The name nearest to `name` among the cells of one kind, or of any.
+  /// The name nearest to `name` among the cells of one kind, or of any; of a group its first member.
   [[nodiscard]] std::optional<std::string> closest(std::string_view name,
                                                    std::optional<program::CellKind> kind = std::nullopt) const;
 

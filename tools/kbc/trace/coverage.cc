@@ -69,8 +69,7 @@ void Coverage::begin_run() {
 }
 
 void Coverage::before(const Interpreter& interpreter) {
-  for (std::size_t i = program_.facts; i < program_.cells.size(); ++i)
-    high_[i] = is_high(program_, interpreter.value(static_cast<CellId>(i)));
+  for (std::uint32_t i = program_.facts; i < program_.first_strategy(); ++i) high_[i] = is_high(program_, interpreter.value(CellId{i}));
   attended_.clear();
   for (std::uint32_t i = 0; i < program_.facts; ++i) {
     const auto& satellites = program_.cells[i].satellites;
@@ -78,7 +77,17 @@ void Coverage::before(const Interpreter& interpreter) {
   }
 }
 
+// Also what a lower level takes back on the same tick has been raised.
+void Coverage::count_raised(const Interpreter& interpreter) {
+  for (std::uint32_t i = program_.facts; i < program_.first_strategy(); ++i) {
+    const bool high = is_high(program_, interpreter.value(CellId{i}));
+    raised_[i] += high && !high_[i] ? 1 : 0;
+    high_[i] = high;
+  }
+}
+
 void Coverage::level_evaluated(const Interpreter& interpreter, std::uint32_t level) {
+  count_raised(interpreter);
   const auto [begin, end] = program::rules_of(program_, level);
   for (std::uint32_t rule = begin; rule < end; ++rule)
     if (interpreter.holds(program_.rules[rule].condition)) ++rules_[rule].held;
@@ -90,8 +99,7 @@ void Coverage::after(const program::Tick& tick, const Interpreter& interpreter) 
   for (const CellId fact : tick.events)
     ++(attended_[index(fact)] ? facts_[index(fact)].attended : facts_[index(fact)].unattended);
   for (std::uint32_t i = 0; i < program_.facts; ++i) facts_[i].seen += interpreter.seen(CellId{i}) ? 1 : 0;
-  for (const program::CellValue& set : tick.set)
-    if (is_high(program_, set.value) && !high_[index(set.cell)]) ++raised_[index(set.cell)];
+  count_raised(interpreter);
   if (tick.strategy != CellId::kNone) {
     Strategy& strategy = strategies_[index(tick.strategy)];
     ++strategy.ticks;

@@ -49,13 +49,15 @@ class Coverage final : public program::Interpreter::Observer {
   [[nodiscard]] const Strategy& strategy(program::CellId id) const { return strategies_[index(id)]; }
 
  private:
+  void count_raised(const program::Interpreter& interpreter);
+
   const program::Program& program_;
   std::vector<Rule> rules_;
   std::vector<Fact> facts_;
   std::vector<std::uint64_t> raised_;  // by cell
   std::vector<Strategy> strategies_;   // by cell
   std::vector<bool> attended_;         // by fact, at the beginning of the tick
-  std::vector<bool> high_;             // by cell, likewise
+  std::vector<bool> high_;             // by cell: as the last level left it
   program::CellId last_strategy_ = program::CellId::kNone;
   std::uint64_t runs_ = 0, ticks_ = 0;
 };

@@ -23,6 +23,8 @@ using diagnostics::Kind;
 constexpr double kMaxTimeS = 1e12;
 // The longest gap that `# every` fills with ticks: a night in the dock is meant, a clock that was changed is not.
 constexpr std::int64_t kMaxFilledUs = 86'400'000'000;
+// The most ticks that it fills in between two rows: a day of milliseconds.
+constexpr std::int64_t kMaxFilledTicks = 86'400'000;
 
 enum class Parsed : std::uint8_t { kNumber, kNotANumber, kTooLarge };
 
@@ -277,7 +279,7 @@ bool FactsReader::take_time(const Field& field, const LineReader::Line& line) {
   const std::int64_t step_us = time_us_ - before_us;
   left_us_ = 0;
   if (row_before_ == 0) return true;
-  const std::int64_t most_us = options_.every_us ? kMaxFilledUs : kMaxStepUs;
+  const std::int64_t most_us = options_.every_us ? std::min(kMaxFilledUs, kMaxFilledTicks * *options_.every_us) : kMaxStepUs;
   if (step_us >= 0 && step_us <= most_us) {
     left_us_ = step_us;
     return true;

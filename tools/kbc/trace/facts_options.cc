@@ -30,7 +30,7 @@ void take(std::string_view key, std::string_view value, FactsOptions& options, O
   } else {
     std::optional<std::uint32_t>& time = key == "dt" ? options.dt_us : options.every_us;
     time = parse_duration(value);
-    item.wanted = "a length of time, such as `10 ms`";
+    item.wanted = "a length of time from 1 us to 71 min, such as `10 ms`";
     item.good = time.has_value();
   }
 }

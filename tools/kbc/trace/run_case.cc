@@ -1,9 +1,11 @@
 // One case of `kbc test`: runs it and compares the trace with the expected one.
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <memory>
 #include <optional>
 
+#include "compiler/source/reason.h"
 #include "tools/kbc/trace/trace_diff.h"
 #include "tools/kbc/trace/excerpt.h"
 #include "tools/kbc/trace/facts_csv.h"
@@ -31,6 +33,8 @@ class Expected {
     if (stream_) lines_.emplace(*stream_);
   }
   [[nodiscard]] bool there() const { return stream_ != nullptr; }
+  /// Why it is not there.
+  [[nodiscard]] const std::string& error() const { return error_; }
   [[nodiscard]] bool failed() const { return failed_; }
 
   /// The next line, or nothing at the end. A line equal to `actual` is not examined further.
@@ -137,8 +141,8 @@ CaseResult run_case(const TestCase& test, const program::Program& program, const
                      test.readings ? FactsReader::Columns::kReadings : FactsReader::Columns::kFacts);
   if (!reader.open()) return result;
   Expected expected(test.trace, options.update, sources, diagnostics);
-  if (!expected.there() && !options.update) {
-    diagnostics.report(Kind::kTestNoExpected, {}, {test.trace});
+  if (!expected.there() && expected.error() != source::reason(ENOENT)) {
+    diagnostics.report(Kind::kCannotRead, {}, {test.trace, expected.error()});
     return result;
   }
   OutputFile written;
@@ -154,9 +158,9 @@ CaseResult run_case(const TestCase& test, const program::Program& program, const
   result.ticks = reader.rows();
   if (result.ticks == 0) {   // it could never fail
     diagnostics.report(Kind::kTestNoRows, {}, {test.facts});
-    return result;
-  }
-  if (differ.same() && expected.there()) {
+  } else if (!expected.there() && !options.update) {
+    diagnostics.report(Kind::kTestNoExpected, {}, {test.trace});
+  } else if (differ.same() && expected.there()) {
     result.outcome = Outcome::kPassed;
   } else if (!options.update) {
     result.outcome = Outcome::kFailed;

@@ -111,9 +111,16 @@ std::string threshold_text(const Program& program, const Record& record, CellId 
 CellAnswer answer_cell(const Program& program, const Record& record, CellId cell) {
   CellAnswer out{.story = program::explain_cell(program, record, cell), .threshold = {}, .raisers = {}};
   if (program[cell].kind == program::CellKind::kFact) out.threshold = threshold_text(program, record, cell);
-  if (program[cell].kind == program::CellKind::kSatellite) out.passing = levels_in_passing(record, cell);
-  if (program[cell].kind != program::CellKind::kSatellite || out.story.value >= firing(program)) return out;
-  for (const RuleId rule : raisers(program, cell)) out.raisers.push_back(answer_rule(program, record, rule));
+  if (program[cell].kind != program::CellKind::kSatellite) return out;
+  std::vector<float> found;
+  for (const program::LevelRecord& level : record.levels) found.push_back(level.cf[index(cell)]);
+  found.push_back(out.story.value);
+  out.passing = levels_in_passing(found);
+  if (out.story.value >= firing(program)) return out;
+  const std::vector<std::uint32_t> group_of = program::group_of_cells(program);
+  for (const RuleId rule : raisers(program, cell)) {
+    if (program::net_value(program, group_of, program[rule], cell) > out.story.value) out.raisers.push_back(answer_rule(program, record, rule));
+  }
   sort_by_nearness(out.raisers);
   out.lacks_raiser = out.raisers.empty();
   return out;
@@ -133,12 +140,10 @@ StrategyAnswer answer_strategy(const Program& program, const Record& record, Cel
 
 }  // namespace
 
-std::vector<std::uint32_t> levels_in_passing(const Record& record, CellId cell) {
-  const float before = record.levels.front().cf[index(cell)], after = record.cf_after[index(cell)];
+std::vector<std::uint32_t> levels_in_passing(const std::vector<float>& found) {
   std::vector<std::uint32_t> levels;
-  for (std::uint32_t i = 0; i < record.levels.size(); ++i) {
-    const float found = record.levels[i].cf[index(cell)];
-    if (found != before && found != after) levels.push_back(i);
+  for (std::uint32_t i = 0; i + 1 < found.size(); ++i) {
+    if (found[i] != found.front() && found[i] != found.back()) levels.push_back(i);
   }
   return levels;
 }
@@ -146,8 +151,13 @@ std::vector<std::uint32_t> levels_in_passing(const Record& record, CellId cell) 
 std::vector<RuleId> raisers(const Program& program, CellId cell) {
   const std::vector<std::uint32_t> group_of = program::group_of_cells(program);
   std::vector<RuleId> found;
+  float most = -1.0f;
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
-    if (program::net_value(program, group_of, program.rules[i], cell) >= firing(program)) found.push_back(RuleId{i});
+    const auto value = program::net_value(program, group_of, program.rules[i], cell);
+    const float counted = std::min(value.value_or(-1.0f), firing(program));
+    if (counted > most) found.clear();
+    most = std::max(most, counted);
+    if (counted == most && most > -1.0f) found.push_back(RuleId{i});
   }
   return found;
 }

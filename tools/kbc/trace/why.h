@@ -27,10 +27,10 @@ struct Nearness {
 };
 [[nodiscard]] Nearness nearness(const program::Program& program, const program::Record& record, program::RuleId rule);
 
-/// The levels whose rules found the cell at a value that it had neither before the tick nor after it, ascending.
-[[nodiscard]] std::vector<std::uint32_t> levels_in_passing(const program::Record& record, program::CellId cell);
+/// The levels whose rules found a cell at a value that it had neither before the tick nor after it, ascending. `found`: see Recorder::found.
+[[nodiscard]] std::vector<std::uint32_t> levels_in_passing(const std::vector<float>& found);
 
-/// The rules that make the satellite or the strategy high, ascending. O(rules).
+/// The rules that make the satellite or the strategy high, ascending; if none does, those that raise it most. O(rules).
 [[nodiscard]] std::vector<program::RuleId> raisers(const program::Program& program, program::CellId cell);
 
 /// The question. With nothing set, it asks about the tick as a whole: all rules that fired, and the strategy that ran.
@@ -52,7 +52,7 @@ struct CellAnswer {
   program::CellStory story;
   std::string threshold;            ///< for a fact: the threshold that it had to pass to be seen, and why
   std::vector<std::uint32_t> passing{};   ///< of a satellite: see levels_in_passing
-  bool lacks_raiser = false;        ///< a satellite that is not high, and no rule raises it
+  bool lacks_raiser = false;        ///< a satellite that is not high, and no rule raises it above its value
   std::vector<RuleAnswer> raisers;  ///< a satellite that is not high: the rules that would raise it, the nearest first
 };
 
@@ -65,6 +65,7 @@ struct Answer {
   bool of_whole_tick = false;     ///< nothing in particular was asked for
   std::optional<std::vector<std::uint64_t>> ticks{};   ///< no tick was asked for: all on which it happened, see why_search.h
   std::vector<float> values{};    ///< what a satellite changed to on these ticks
+  std::vector<std::uint64_t> within{};   ///< those on which a satellite changed, and back before they ended
   std::vector<RuleAnswer> rules;  ///< those asked for, the nearest to firing first; or those that fired, in order
   std::optional<StrategyAnswer> strategy;
   std::vector<CellAnswer> cells;  ///< the cell asked for; the satellites of the strategy asked for

@@ -99,9 +99,9 @@ void print_cell(const Program& program, const Record& record, const CellAnswer& 
   out += cell.story.text + "\n";
   if (!cell.threshold.empty()) out += "  " + cell.threshold + "\n";
   for (const std::uint32_t level : cell.passing) {
-    out += fmt::format("  on this tick only: the rules of level `{}` found it at {:.2f}\n", program.levels[level], record.levels[level].cf[index(cell.story.cell)]);
+    out += fmt::format("  within this tick: the rules of level `{}` found it at {:.2f}\n", program.levels[level], record.levels[level].cf[index(cell.story.cell)]);
   }
-  if (cell.lacks_raiser) out += "  no rule raises it\n";
+  if (cell.lacks_raiser) out += cell.story.value > -1.0f ? "  no rule raises it any higher\n" : "  no rule raises it\n";
   if (cell.raisers.empty()) return;
   const bool passing = !cell.passing.empty();
   if (cell.raisers.size() == 1) out += passing ? "  one rule raises it:\n" : "  one rule would raise it:\n";
@@ -121,7 +121,7 @@ std::string print(const Program& program, const Record& record, const Answer& an
     for (const CellId before : answer.strategy->before)
       out += fmt::format("  `{}` goes before it, and was wanted\n", program[before].name);
   } else if (answer.of_whole_tick) {
-    out += fmt::format("nothing ran at tick {}\n", record.tick.number);
+    out += fmt::format("nothing ran at tick {}{}\n", record.tick.number, record.tick.status == program::Status::kHoldExpired ? ": `hold_limit` is over" : "");
   }
   for (const CellAnswer& cell : answer.cells) print_cell(program, record, cell, most, out);
   return out;
@@ -133,6 +133,7 @@ std::string print_json(const Program& program, const Record& record, const Answe
                    {"status", status_text(record.tick.status)}};
   if (answer.ticks) out["ticks"] = *answer.ticks;
   for (const float value : answer.values) out["values"].push_back(json_number(value));
+  if (!answer.within.empty()) out["within"] = answer.within;
   out["rules"] = json_rules(program, record, answer.rules);
   if (answer.strategy) out["strategy"] = json_strategy(program, record, *answer.strategy);
   out["cells"] = ordered_json::array();

@@ -24,7 +24,7 @@ struct Words {
 Words words_of(const Program& program, CellId cell) {
   if (cell == CellId::kNone) return {"fired", "did not fire"};
   switch (program[cell].kind) {
-    case CellKind::kFact: return {"came into sight", "did not come into sight"};
+    case CellKind::kFact: return {"was seen", "was not seen"};
     case CellKind::kSatellite: return {"changed", "did not change"};
     case CellKind::kStrategy: return {"ran", "did not run"};
   }
@@ -60,10 +60,12 @@ WhySearch::WhySearch(const Program& program, const Question& question)
   for (const CellId satellite : program[cell_].satellites) satellites_.push_back({satellite, raisers(program, satellite)});
 }
 
-bool WhySearch::happened(const program::Tick& tick) const {
+bool WhySearch::happened(const program::Tick& tick, const program::Recorder& recorder) {
   if (cell_ == CellId::kNone) return std::ranges::find_first_of(tick.fired, rules_) != tick.fired.end();
   switch (program_[cell_].kind) {
-    case CellKind::kFact: return std::ranges::binary_search(tick.events, cell_);
+    case CellKind::kFact:
+      if (tick.number == 1) seen_ = recorder.record().seen[program::index(cell_)];   // the first tick makes no events
+      return seen_ = (seen_ && !std::ranges::binary_search(tick.lost, cell_)) || std::ranges::binary_search(tick.events, cell_);
     case CellKind::kSatellite: return change(tick) != nullptr;
     case CellKind::kStrategy: return tick.strategy == cell_;
   }
@@ -129,13 +131,14 @@ std::string WhySearch::print_alone() const {
 }
 
 void WhySearch::consider(const program::Tick& tick, program::Recorder& recorder) {
-  if (happened(tick)) {
+  if (happened(tick, recorder)) {
     ticks_.push_back(tick.number);
     if (const program::CellValue* now = change(tick)) values_.push_back(now->value);
   }
-  if (!ticks_.empty()) return;
-  const bool passing = cell_ != CellId::kNone && program_[cell_].kind == CellKind::kSatellite && !levels_in_passing(recorder.record(), cell_).empty();
+  const bool satellite = cell_ != CellId::kNone && program_[cell_].kind == CellKind::kSatellite;
+  const bool passing = satellite && change(tick) == nullptr && !levels_in_passing(recorder.found()).empty();
   if (passing) passing_.push_back(tick.number);
+  if (!ticks_.empty()) return;
   const Nearness near = cell_ == CellId::kNone ? nearest_rule(recorder.record()) : nearness(recorder.record());
   const bool nearer = passing_.empty() ? near < near_ : passing && passing_.size() == 1;
   if (nearest_.tick.number == 0 || nearer) {
@@ -152,8 +155,9 @@ std::string WhySearch::print(std::string_view name, std::uint64_t ticks) const {
     return fmt::format("`{}` changed within {} of {}, and back before they ended: {}. The first:\n", name, passing_.size(), of, list(passing_, {}));
   }
   if (ticks_.empty()) return fmt::format("`{}` {} in {}. {}{} tick {}:\n", name, words.did_not, of, print_alone(), near_ == kFar ? "At" : "It came nearest at", nearest_.tick.number);
-  if (ticks_.size() == 1) return fmt::format("`{}` {} once in {}:\n", name, words.happened, of);
-  return fmt::format("`{}` {} on {} of {}: {}. The first:\n", name, words.happened, ticks_.size(), of, list(ticks_, values_));
+  const std::string also = passing_.empty() ? "" : fmt::format("It also changed within {}, and back: {}. ", diagnostics::counted(passing_.size(), "other tick"), list(passing_, {}));
+  if (ticks_.size() == 1) return fmt::format("`{}` {} once in {}{}\n", name, words.happened, of, also.empty() ? ":" : ". " + also + "The first:");
+  return fmt::format("`{}` {} on {} of {}: {}. {}The first:\n", name, words.happened, ticks_.size(), of, list(ticks_, values_), also);
 }
 
 }  // namespace kb::trace
