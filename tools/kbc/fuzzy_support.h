@@ -2,6 +2,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tools/kbc/support.h"
 
@@ -16,7 +21,7 @@ namespace kb::cli {
     names.push_back(controller.name);
   }
   std::string which = name.empty() ? "" : " `" + name + "`";
-  if (name.empty() && !all.empty()) which = " of its own; name one of several";
+  if (name.empty() && !all.empty()) which = fmt::format(" that is the only one; name one of its {}: {}", all.size(), fmt::join(names, ", "));
   diagnostics.report(diagnostics::Kind::kNoFuzzy, {}, {file, which}).suggest(diagnostics::closest(name, names));
   return nullptr;
 }

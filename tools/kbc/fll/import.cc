@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/fuzzy/controller.h"
 #include "tools/kbc/fll/import_parts.h"
 
@@ -21,6 +22,7 @@ class Writer {
 
   std::optional<std::string> run() {
     if (const std::string_view part = missing_part(); !part.empty()) refuse(engine_.line, fmt::format("the engine has no {}", part));
+    write_comment(engine_.description, "");
     fmt::format_to(Out(out_), "fuzzy {} {{\n", kb_name(engine_.name));
     write_operators();
     for (const Variable& variable : engine_.variables) {
@@ -31,6 +33,7 @@ class Writer {
     }
     out_ += '\n';
     for (const Block& block : engine_.blocks) {
+      write_comment(block.description, "    ");
       for (const Line& rule : block.rules) write_rule(rule, block);
     }
     out_ += "}\n";
@@ -39,6 +42,11 @@ class Writer {
   }
 
  private:
+  /// A description is a comment in FLL, and stays one.
+  void write_comment(std::string_view text, std::string_view indent) {
+    if (!text.empty()) fmt::format_to(Out(out_), "{}# {}\n", indent, diagnostics::visible(text));
+  }
+
   void refuse(const Line& line, std::string_view why) {
     diagnostics_.report(Kind::kFllNotTaken, line.span, {why});
     good_ = false;
@@ -115,6 +123,7 @@ class Writer {
   void write_input(const Variable& variable) {
     if (!variable.low || !variable.high) return refuse(variable.line, "it has no range");
     if (variable.terms.empty()) return refuse(variable.line, "it has no terms, so that no rule could speak of it");
+    write_comment(variable.description, "    ");
     fmt::format_to(Out(out_), "    input  {} {}..{} {{\n", variable.kb, *variable.low, *variable.high);
     for (const Term& term : variable.terms) fmt::format_to(Out(out_), "        {} = {}\n", term.kb, shape(term));
     out_ += "    }\n";
@@ -165,6 +174,7 @@ class Writer {
     if (!sound(variable)) return;
     double low = *variable.low, high = *variable.high;
     if (!variable.lock_range) widen(variable, low, high);
+    write_comment(variable.description, "    ");
     fmt::format_to(Out(out_), "    output {} {}..{} {{", variable.kb, low, high);
     for (const Term& term : variable.terms) {
       if (term.kind != "Constant") continue;

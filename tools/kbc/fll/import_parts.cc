@@ -156,7 +156,7 @@ void Reader::take(const Line& line) {
     engine_.blocks.emplace_back();
     return;
   }
-  if (line.key == "description") return;   // a comment
+  if (line.key == "description") return take_description(line.value);
   if (line.key == "enabled") {
     if (!boolean(line) && section_ != Section::kNone) refuse(line, "a part that is switched off would be on here; remove it");
     return;
@@ -167,6 +167,12 @@ void Reader::take(const Line& line) {
     case Section::kBlock: return take_block(engine_.blocks.back(), line);
     default: return refuse(line, fmt::format("`{}` is not known", line.key));
   }
+}
+
+void Reader::take_description(std::string_view text) {
+  if (section_ == Section::kVariable) engine_.variables.back().description = text;
+  else if (section_ == Section::kBlock) engine_.blocks.back().description = text;
+  else engine_.description = text;
 }
 
 void Reader::take_range(Variable& variable, const Line& line) {

@@ -50,6 +50,7 @@ struct Variable {
   std::string name;                 ///< as it stands in FLL
   std::string kb;                   ///< in the language
   Line line;
+  std::string_view description;
   std::optional<double> low, high;
   bool lock_range = false;
   bool range_told = false;          ///< inputs: a line says whether it is locked
@@ -58,12 +59,14 @@ struct Variable {
   Named<Term> terms;
 };
 struct Block {
+  std::string_view description;
   std::string conjunction, disjunction;   ///< "min", "product"; "max", "sum"; empty: none
   std::vector<Line> rules;
 };
 struct Engine {
   std::string name;
   Line line;                        ///< the beginning of the file if no line names it
+  std::string_view description;
   Named<Variable> variables;
   std::vector<Block> blocks;
 };
@@ -80,6 +83,7 @@ class Reader {
  private:
   [[nodiscard]] std::optional<Line> next_line();
   void take(const Line& line);
+  void take_description(std::string_view text);
   void take_input(Variable& variable, const Line& line);
   void take_output(Variable& variable, const Line& line);
   void take_block(Block& block, const Line& line);
