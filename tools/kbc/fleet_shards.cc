@@ -63,15 +63,18 @@ std::string BatchFiles::path(std::string_view name) const { return (std::filesys
 std::string BatchFiles::shard_path(std::size_t shard) const { return path(fmt::format("shards/{:04}.csv", shard + 1)); }
 std::string BatchFiles::shard_head(std::size_t shard) const { return fmt::format("{}, shard {} of {}", head_, shard + 1, batch_.shards()); }
 
-// Every row is checked, so that a file that has been shortened does not become a shorter batch.
-bool BatchFiles::read(Text& file, const std::string& head, Batch::Block block, std::vector<sim::batch::Run>* runs, Session& session) const {
+bool BatchFiles::read_head(Text& file, const std::string& head, Session& session) const {
   if (!file.load(session)) return false;
   const std::string begin = fmt::format("{}\n{}\n", head, batch_.header());
-  if (!file.bytes.starts_with(begin)) {
-    file.complain(session, Kind::kFleetOther, 0, {});
-    return false;
-  }
   file.rows_at = begin.size();
+  if (file.bytes.starts_with(begin)) return true;
+  file.complain(session, Kind::kFleetOther, 0, {});
+  return false;
+}
+
+// Every row is checked, so that a file that has been shortened does not become a shorter batch.
+bool BatchFiles::read(Text& file, const std::string& head, Batch::Block block, std::vector<sim::batch::Run>* runs, Session& session) const {
+  if (!read_head(file, head, session)) return false;
   std::size_t at = file.rows_at;
   for (std::size_t number = block.first; number < block.last; ++number) {
     const std::size_t end = file.bytes.find('\n', at);
@@ -99,6 +102,11 @@ bool BatchFiles::open(Session& session, const std::vector<std::size_t>& wanted) 
     Text file{shard_path(shard), {}, 0};
     if (!std::filesystem::exists(file.path, ignored)) missing_.push_back(shard);
     else if (!read(file, shard_head(shard), batch_.block(shard), nullptr, session)) return false;
+  }
+  for (std::size_t shard = 0; shard < batch_.shards(); ++shard) {   // of the others one tells whose they are
+    Text file{shard_path(shard), {}, 0};
+    if (std::ranges::binary_search(wanted, shard) || !std::filesystem::exists(file.path, ignored)) continue;
+    return read_head(file, shard_head(shard), session);
   }
   return true;
 }

@@ -38,7 +38,7 @@ class BatchFiles {
   /// `batch` must outlive it. `fingerprint` is equal for runs that belong together.
   BatchFiles(std::string folder, const sim::batch::Batch& batch, std::string fingerprint);
 
-  /// Looks at the files there; among shards, only at those in `wanted`. False (reported, with the place) if one belongs to another batch, is
+  /// Looks at the files there: at the shards in `wanted`, which ascend, and at the beginning of one of the others. False (reported, with the place) if one belongs to another batch, is
   /// damaged, or cannot be read.
   [[nodiscard]] bool open(Session& session, const std::vector<std::size_t>& wanted);
   /// The wanted shards that are missing, in order.
@@ -62,6 +62,7 @@ class BatchFiles {
   struct Text;
   [[nodiscard]] static bool refuse(const std::string& path, Session& session);
   [[nodiscard]] std::string shard_head(std::size_t shard) const;
+  [[nodiscard]] bool read_head(Text& file, const std::string& head, Session& session) const;
   [[nodiscard]] bool read(Text& file, const std::string& head, sim::batch::Batch::Block block, std::vector<sim::batch::Run>* runs, Session& session) const;
   std::string folder_;
   const sim::batch::Batch& batch_;
