@@ -14,7 +14,7 @@ inline constexpr float kRadPerDeg = kPi / 180.0f;
 [[nodiscard]] constexpr float sign_of(float x) noexcept { return x < 0.0f ? -1.0f : 1.0f; }
 
 /// The angle in (-pi, pi] that differs from x by whole turns; 0 for NaN and for x farther than 1e6 rad from 0.
-/// Error: 1e-7 per turn taken off.
+/// Error: at most 5e-7 per turn taken off.
 [[nodiscard]] constexpr float wrapped_angle(float x) noexcept {
   if (!(magnitude(x) < 1e6f)) return 0.0f;
   const float turns = x * (0.5f / kPi);
@@ -24,7 +24,7 @@ inline constexpr float kRadPerDeg = kPi / 180.0f;
   return left <= -kPi ? left + 2.0f * kPi : left;
 }
 
-/// sin x; at most 2e-6 wrong for |x| <= 100.
+/// sin x; at most 3e-7 wrong for |x| <= 10, and 6e-6 for |x| <= 100.
 /// Reduces x to [-pi/2, pi/2], then takes the power series up to x^11 (the terms left out are below 6e-8).
 [[nodiscard]] constexpr float sine(float x) noexcept {
   float a = wrapped_angle(x);
@@ -38,7 +38,7 @@ inline constexpr float kRadPerDeg = kPi / 180.0f;
   series = series * q - 1.0f / 6.0f;
   return a + a * q * series;
 }
-/// cos x; at most 2e-6 wrong for |x| <= 100.
+/// cos x; at most 3e-7 wrong for |x| <= 10, and 6e-6 for |x| <= 100.
 [[nodiscard]] constexpr float cosine(float x) noexcept { return sine(wrapped_angle(x) + 0.5f * kPi); }
 
 /// The angle of the point (x, y), in (-pi, pi]; 0 for (0, 0). At most 1e-6 wrong.

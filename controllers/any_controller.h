@@ -4,7 +4,7 @@
 //   if (entry == nullptr) ...                                    // there is none of that name
 //   mts::AnyController drive;
 //   drive.choose(entry->id, body);
-//   if (drive.set("side", 2.0f) != mts::Setting::kSet) ...       // right: number_of_word()
+//   if (drive.set_word("side", "right") != mts::Setting::kSet) ...
 //   if (drive.set("distance", 0.2f) != mts::Setting::kSet) ...
 //   drive.start(task, senses);
 //   for (;;) wheels(drive.step(senses, dt_s));
@@ -64,7 +64,12 @@ class AnyController {
 
   [[nodiscard]] ControllerId id() const noexcept { return id_; }
 
-  /// Sets a parameter, in the unit the registry gives; pass a word as the number from `number_of_word`. Call it before `start`. If you
+  /// Sets a parameter that takes a word, such as `left`. `kOutside` if it has no such word, or takes a number.
+  [[nodiscard]] Setting set_word(const char* name, const char* word) noexcept {
+    const Parameter* parameter = find_parameter(id_, name);
+    return parameter == nullptr ? Setting::kUnknown : set(name, number_of_word(*parameter, word));
+  }
+  /// Sets a parameter, in the unit the registry gives; a word is the number from `number_of_word`. Call it before `start`. If you
   /// set parameters while the controller drives, some take effect at once (most speeds), others at the next `start`.
   [[nodiscard]] Setting set(const char* name, float value) noexcept {
     const Parameter* parameter = find_parameter(id_, name);

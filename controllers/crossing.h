@@ -54,6 +54,7 @@ class Crossing {
     *this = Crossing{};
     gains_ = gains;
     body_ = body;
+    begun_ = true;
     turn_ = task.turn;
     const float span = task.crossing_m > 0.1f ? task.crossing_m : body.crossing_m;
     in_m_ = task.middle_m > 0.0f && task.middle_m < span ? task.middle_m : 0.5f * span;
@@ -90,10 +91,10 @@ class Crossing {
     return true;
   }
 
-  /// The motion; zero once the manoeuvre is done or lost.
+  /// The motion; zero before `start`, and once the manoeuvre is done or lost.
   [[nodiscard]] Motion steer(const Senses& senses) noexcept {
     look_for_end(senses);
-    if (done_ || lost_) return {};
+    if (!begun_ || done_ || lost_) return {};
     return braked(along_course(on_, gains_.bend_radius_m, {gains_.speed_m_s, gains_.convergence_1_m, gains_.turn_rad_s, 0.8f}),
                   senses, body_);
   }
@@ -159,7 +160,7 @@ class Crossing {
   OnCourse on_{};
   float in_m_ = 0.35f, out_m_ = 0.35f;   // from the middle to the stop lines
   Turn turn_ = Turn::kForward;
-  bool done_ = false, lost_ = false;
+  bool begun_ = false, done_ = false, lost_ = false;
 };
 
 }  // namespace mts

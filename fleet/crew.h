@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "../runtime/cpp20.h"
+
 namespace mts {
 
 /// A few threads that wait for work. Use a crew from one thread at a time. A thread that has nothing to do looks for work for 0.2 ms, giving

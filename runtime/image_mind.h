@@ -79,7 +79,8 @@ class BasicImageMind {
   /// Takes the first image or swaps to another one, between two ticks. Image and block must stay where they are while the mind runs on
   /// them. The block must be aligned to 8, hold `ImageInfo::state_bytes` bytes (peek_image), and overlap neither the block in use nor
   /// either image (else kNoMemory). Any result but kOk leaves the running mind as it was. `lost(const SwapLoss&)` is called for what could
-  /// not be carried over. After kOk all numbers are those of the new image: call `find` again. The first image leaves `report` as it was.
+  /// not be carried over. After kOk all numbers are those of the new image: call `find` again. What is said of the last tick must be read before:
+  /// until the next one, the new image has no fired rules, changes and conflicts to tell of. The first image leaves `report` as it was.
   /// Cost: verification, linear in the size of the image.
   template <class F>
   [[nodiscard]] ImageStatus take(const void* bytes, std::size_t size, std::byte* block, std::size_t block_bytes, SwapReport& report, F&& lost) {

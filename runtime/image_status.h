@@ -60,7 +60,7 @@ enum class ImageStatus : std::uint8_t {
     case ImageStatus::kWrongChecksum: return "damaged: the checksum differs";
     case ImageStatus::kOtherWidth: return "its indexes are of another width";
     case ImageStatus::kNoScratch: return "too little working memory to verify it";
-    case ImageStatus::kNoMemory: return "the block for its state is too small, not aligned to 8, or overlaps the block in use or an image";
+    case ImageStatus::kNoMemory: return "the block for its state is null, too small, not aligned to 8, or overlaps the block in use or an image";
     case ImageStatus::kSettings: return "its settings are out of range";
     case ImageStatus::kPadding: return "bytes that must be zero are not";
     case ImageStatus::kLevels: return "its levels and words of rules do not fit together";

@@ -241,7 +241,7 @@ class Decision {
   const State* s_;
 };
 
-/// A running mind. The object holds all of its memory (`kbc budget` gives the size) and may be static or on the stack. A copy continues
+/// A running mind. The object holds all of its memory (`kbc budget` tells roughly how much) and may be static or on the stack. A copy continues
 /// from the state of the original; to restore a saved state, assign a copy back. On its next tick, a mind that is a copy or was assigned to
 /// reads all facts rather than only the changed ones; so does a mind given Facts that are a copy or were assigned to.
 ///

@@ -102,6 +102,10 @@ TEST(AnyController, SetsWhatIsInRangeAndSaysWhatIsNot) {
   EXPECT_EQ(controller.set("sped", 0.2f), Setting::kUnknown);
   controller.choose(ControllerId::kKeepWall, body);
   EXPECT_EQ(controller.set("side", 1.5f), Setting::kOutside) << "between two words";
+  EXPECT_EQ(controller.set_word("side", "right"), Setting::kSet);
+  EXPECT_EQ(controller.set_word("side", "back"), Setting::kOutside) << "no word of it";
+  EXPECT_EQ(controller.set_word("speed", "right"), Setting::kOutside) << "a number";
+  EXPECT_EQ(controller.set_word("sides", "right"), Setting::kUnknown);
   controller.choose(ControllerId::kFollowLine, body);
   EXPECT_EQ(controller.set("speed", 0.2f), Setting::kSet);
   Senses senses;
@@ -112,6 +116,18 @@ TEST(AnyController, SetsWhatIsInRangeAndSaysWhatIsNot) {
   controller.choose(ControllerId::kFollowLine, body);   // what was set is forgotten
   controller.start({}, senses);
   EXPECT_FLOAT_EQ(controller.step(senses, 0.01f).speed_m_s, 0.4f);
+}
+
+TEST(AnyController, StandsBeforeItsCrossingHasBegun) {
+  Senses senses;
+  senses.line_known = senses.heading_known = senses.odometry_known = senses.turned_known = true;
+  for (const ControllerId id : {ControllerId::kTurnOnLine, ControllerId::kTurnByCompass}) {
+    AnyController controller;
+    controller.choose(id, {.has_range_finders = false});
+    const Motion motion = controller.step(senses, 0.02f);
+    EXPECT_EQ(motion.speed_m_s, 0.0f);
+    EXPECT_EQ(motion.turn_rad_s, 0.0f);
+  }
 }
 
 TEST(AnyController, KeepsNoWallInsideTheRobot) {
