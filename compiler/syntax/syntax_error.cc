@@ -32,7 +32,7 @@ std::string_view singular(TokenKind declaration) {
 void SyntaxError::report() {
   if (stream_.is_spoilt() || stream_.is_reported()) return;
   const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_late_of() || is_trailing_comma() ||
-                     is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() || is_map_line() ||
+                     is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() || is_names_as_set() || is_map_line() ||
                      is_rule_head() || is_percept() || is_condition() || is_effect() || is_route() || is_road() || is_order() ||
                      is_quoted_name() || is_missing_comma() || is_type() || is_member_value() || is_unknown_attribute() || is_word_as_name();
   if (!known) report_unexpected();
@@ -165,9 +165,17 @@ bool SyntaxError::is_unknown_statement() {
     return say(Kind::kElseBranch, found_.span, {text()});
   }
   if (!found_.begins_line && statement_ != T::kEnd) return false;
+  const bool setting = (text() == "idle" || text() == "hold_limit" || text() == "firing") && stream_.ahead(1).kind == T::kEqual;
   diagnostics_.report(Kind::kUnknownStatement, found_.span, {diagnostics::beginning(text())})
-      .suggest(diagnostics::closest(text(), statement_words()));
+      .suggest(setting ? std::optional("set " + std::string(text())) : diagnostics::closest(text(), statement_words()));
   return true;
+}
+
+// `set Side { left, right }`
+bool SyntaxError::is_names_as_set() {
+  if (statement_ != T::kSet || kind_ != T::kLeftBrace || last_.kind != T::kIdentifier || !wants(T::kEqual)) return false;
+  const std::string name(text(last_.span));
+  return say(Kind::kOtherWord, found_.span, {"set " + name + " {", "names " + name + " {"});
 }
 
 bool SyntaxError::is_map_line() {

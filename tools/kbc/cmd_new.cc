@@ -49,11 +49,14 @@ std::string_view fault_of(const std::string& name) {
   return is_namespace(name) ? "" : "it is a word of C++, a name of its C library, or one of the namespaces `std`, `mts` and `kb`";
 }
 
-// The name of the project, its main file and its namespace is that of the folder.
-std::string project_name(const std::string& folder) {
+// Also of `.`.
+std::string folder_name(const std::string& folder) {
   std::error_code ignored;
-  return boost::replace_all_copy(fs::weakly_canonical(folder, ignored).filename().string(), "-", "_");
+  return fs::weakly_canonical(folder, ignored).filename().string();
 }
+
+// The name of the project, its main file and its namespace is that of the folder.
+std::string project_name(const std::string& folder) { return boost::replace_all_copy(folder_name(folder), "-", "_"); }
 
 bool is_free(const std::string& folder) {
   std::error_code error;
@@ -96,10 +99,11 @@ bool make_files(const std::set<std::string>& folders, const std::vector<Session:
 int make_project(std::string folder, Session& session) {
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const std::string name = project_name(folder);
+  std::error_code ignored;
   if (const std::string_view fault = fault_of(name); !fault.empty())
-    session.report(Kind::kBadProjectName, {folder, fault});
+    session.report(Kind::kBadProjectName, {folder_name(folder), fault});
   else if (!is_free(folder))
-    session.report(Kind::kFolderNotEmpty, {folder});
+    session.report(Kind::kFolderNotEmpty, {folder, fs::is_directory(folder, ignored) ? "not empty" : "no folder"});
   if (session.exit_code() != kClean) return kErrors;
 
   std::vector<Session::OutputFile> files;

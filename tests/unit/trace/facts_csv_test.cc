@@ -139,7 +139,7 @@ TEST(FactsCsv, refuses_two_ways_to_say_how_long_ticks_are) {
   EXPECT_EQ(complaints_of("# dt: 10 ms\nt,Line\n0,1\n"),
             (Lines{"KB0939 the column `t` says how long ticks are; the comment `# dt:` cannot say it too"}));
   EXPECT_EQ(complaints_of("# dt: 10 apples\nLine\n1\n"),
-            (Lines{"KB0938 1:7-16 `10 apples` is not a length of time, such as `10 ms`"}));
+            (Lines{"KB0938 1:7-16 `10 apples` is not a length of time from 1 us to 71 min, such as `10 ms`"}));
 }
 
 TEST(FactsCsv, names_bytes_that_are_no_text) {
