@@ -85,7 +85,7 @@ class Drive {
     robot_.mind().set_fact(stops_[next_], 0.9f);
     set(kIn, 0.9f);
     timed([&] { robot_.mind().tick(kStep); });
-    robot_.mind().for_each_fired([&](std::uint32_t) { ++fired_; });
+    fired_ += robot_.mind().fired().size();
     if (++next_ == stops_.size()) end();
   }
   [[nodiscard]] std::uint64_t fired() const { return fired_; }

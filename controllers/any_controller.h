@@ -35,24 +35,8 @@ class AnyController {
   void choose(ControllerId id, const Body& body = {}, const Host& host = {}) noexcept {
     id_ = id;
     turn_set_ = false;
-    switch (id) {
-      case ControllerId::kStand: new (&stand_) Stand{}; return;
-      case ControllerId::kFollowLine: new (&follow_line_) FollowLine{}; break;
-      case ControllerId::kKeepWall: new (&keep_wall_) KeepWall{}; break;
-      case ControllerId::kHoldHeading: new (&hold_heading_) HoldHeading{}; break;
-      case ControllerId::kTurnOnLine: new (&turn_on_line_) TurnOnLine{}; break;
-      case ControllerId::kTurnByWalls: new (&turn_by_walls_) TurnByWalls{}; break;
-      case ControllerId::kTurnByCompass: new (&turn_by_compass_) TurnByCompass{}; break;
-      case ControllerId::kRoundObstacle: new (&round_obstacle_) RoundObstacle{}; break;
-      case ControllerId::kTurnRound: new (&turn_round_) TurnRound{}; break;
-      case ControllerId::kLookRound: new (&look_round_) LookRound{}; break;
-      case ControllerId::kBug: new (&bug_) Bug{}; break;
-      case ControllerId::kPotential: new (&potential_) Potential{}; break;
-      case ControllerId::kFollowRules: new (&follow_rules_) FollowRules{}; break;
-      case ControllerId::kNeuralMap:
-      case ControllerId::kGenetic: new (&follow_plan_) FollowPlan{}; break;
-    }
-    visit([&](auto& controller) {
+    visit([&]<class Chosen>(Chosen& controller) {
+      new (&controller) Chosen{};
       if constexpr (requires { controller.body; }) controller.body = body;
       if constexpr (requires { controller.host; }) controller.host = host;
     });

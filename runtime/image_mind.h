@@ -182,11 +182,7 @@ class BasicImageMind {
   [[nodiscard]] bool attended(std::uint32_t fact) const {
     return visit([&](const auto& half) { return fact < half.image.tables.shape.facts && half.state.attended[fact] != 0; });
   }
-  /// The rules that fired on the last tick, from the highest level to the lowest: by calls of `f(number of the rule)`, and as a list.
-  template <class F>
-  void for_each_fired(F&& f) const {
-    for (const std::uint32_t rule : fired()) f(rule);
-  }
+  /// The numbers of the rules that fired on the last tick, from the highest level to the lowest.
   [[nodiscard]] Numbers fired() const {
     return visit([](const auto& half) { return Numbers(half.state.fired_list, half.state.fired); });
   }

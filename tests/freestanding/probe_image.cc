@@ -17,7 +17,7 @@ int probe(Mind& mind, const void* bytes, unsigned size, float value) {
   if (!mind.has_image()) return mts::text(status)[0];
   mind.set_fact(mind.find(mts::ImageKind::kFact, "Line"), value);
   mind.tick(mts::milliseconds(20));
-  mind.for_each_fired([&sum](std::uint32_t rule) { sum += static_cast<int>(rule); });
+  for (const std::uint32_t rule : mind.fired()) sum += static_cast<int>(rule);
   for (const std::uint32_t fact : mind.events()) sum += static_cast<int>(fact);
   for (const auto change : mind.changed()) sum += change.value > 0.0f ? 1 : 0;
   for (const auto conflict : mind.conflicts()) sum += static_cast<int>(conflict.cell);
