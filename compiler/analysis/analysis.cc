@@ -5,6 +5,13 @@
 namespace kb::analysis {
 namespace {
 
+/// Such as what is left of a file that was cut off. What a module may consist of is something; a level and the relation Command are always there.
+bool is_empty(const model::Model& model) {
+  const bool levels = !model.level_spans.empty() && model.level_spans.front().known();
+  return !levels && model.cells.empty() && model.sets.empty() && model.relations.size() <= 1 && model.tables.empty() && model.maps.empty() &&
+         model.prototypes.empty() && model.sensors.empty() && model.fuzzy.empty();
+}
+
 /// Reports levels that no rule uses. The control level always has rules.
 void diagnose_levels(Subject& subject) {
   const program::Program& program = subject.program;
@@ -20,6 +27,10 @@ void diagnose_levels(Subject& subject) {
 }  // namespace
 
 void diagnose(const model::Model& model, const program::Program& program, const KnownArguments& known, diagnostics::Diagnostics& diagnostics) {
+  if (is_empty(model)) {
+    diagnostics.report(diagnostics::Kind::kNothingDeclared, {source::FileId{0}, 0, 0}, {});
+    return;
+  }
   Subject subject = study(model, program, diagnostics);
   diagnose_levels(subject);
   diagnose_look_alikes(subject);

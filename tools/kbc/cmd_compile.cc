@@ -140,9 +140,7 @@ void diagnose_left_out(const driver::Compilation& compiled, Session& session) {
   for (const program::Sensor& sensor : compiled.program.perception.sensors) {
     diagnostics.report(Kind::kNotInImage, sensor.declared, {"the sensor", sensor.name});
   }
-  for (const program::Control& control : compiled.program.controls) {
-    if (control.fuzzy != fuzzy::kNone) diagnostics.report(Kind::kNotInImage, control.span, {"the fuzzy controller", control.controller});
-  }
+  for (const fuzzy::Controller& controller : compiled.program.fuzzy) diagnostics.report(Kind::kNotInImage, controller.declared, {"the fuzzy controller", controller.name});
 }
 
 Files emit_files(const CompileOptions& options, const driver::Compilation& compiled, const std::vector<std::string>& names,
