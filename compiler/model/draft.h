@@ -22,6 +22,7 @@ inline constexpr std::uint32_t kNone32 = 0xFFFFFFFFu;
 
 /// Limits, each named in its message.
 inline constexpr std::size_t kMaxCells = std::size_t{1} << 24;
+inline constexpr std::size_t kMaxFieldValues = std::size_t{1} << 26;   ///< fields of all rows
 inline constexpr std::size_t kMaxInstances = 10'000'000;            ///< combinations tried for one rule
 inline constexpr std::size_t kMaxRules = std::size_t{1} << 22;      ///< instances in all
 inline constexpr std::size_t kMaxEffects = std::size_t{1} << 25;    ///< effects of all instances
@@ -189,6 +190,8 @@ void report_only_certain(const Forest& forest, diagnostics::Diagnostics& diagnos
 CellId add_cell(Draft& draft, Cell cell, float own_initial = -1.0f);
 /// True if `more` cells would be too many, which is reported.
 bool too_many_cells(Draft& draft, std::size_t more, std::string_view name, source::Span at);
+/// True if `more` fields in rows of the relation would be too many, which is reported.
+bool too_many_values(Draft& draft, std::size_t more, const Relation& relation, source::Span at);
 /// The own satellite of a fact or strategy.
 [[nodiscard]] CellId own_satellite(const Model& model, CellId cell);
 /// `satellite` draws attention to `cell`.
@@ -202,7 +205,7 @@ void attach(Model& model, CellId satellite, CellId cell);
 RelationId implicit_relation(Draft& draft, std::string_view name, source::Span at);
 /// The same, and reports that it is not declared (`what` writes its rows), once for all relations of the library.
 RelationId need_relation(Draft& draft, std::string_view name, std::string_view what, source::Span at);
-/// A new row of this cell, with all its fields missing. `name` is one of the model's texts.
+/// A new row of this cell, with all its fields missing; if they are too many, it gets none. `name` is one of the model's texts.
 RowId add_row_of(Draft& draft, RelationId relation, std::string_view name, source::Span at, CellId cell);
 /// A new row, named by its parts joined (they are copied). It gets a satellite of its own if the relation has satellites.
 RowId add_row(Draft& draft, RelationId relation, std::initializer_list<std::string_view> name, source::Span at);
@@ -212,6 +215,8 @@ PointId add_point(Model& model, Point point);
 KeptId add_kept(Model& model, KeptCondition kept);
 /// Sets a field if the relation has it.
 void set_field(Draft& draft, RowId row, std::string_view field, Value value);
+/// Sets the field at this place of the relation.
+void set_field(Draft& draft, RowId row, std::size_t place, Value value);
 /// A field of a row as one number.
 [[nodiscard]] constexpr std::uint64_t field_key(RowId row, std::size_t field) { return (std::uint64_t{index(row)} << 16) | field; }
 [[nodiscard]] std::optional<std::size_t> find_field(const Relation& relation, std::string_view field);

@@ -110,7 +110,8 @@ class MapReader {
     const std::size_t landmarks = map_.landmarks.size(), roads = 2 * map_.roads.size();
     make_room(draft_.model.cells, 2 * landmarks);
     make_room(draft_.model.rows, landmarks + roads);
-    make_room(draft_.model.values, landmarks * draft_.model[landmark_relation_].fields.size() + roads * draft_.model[road_relation_].fields.size());
+    const std::size_t values = landmarks * draft_.model[landmark_relation_].fields.size() + roads * draft_.model[road_relation_].fields.size();
+    make_room(draft_.model.values, std::min(values, kMaxFieldValues));
     make_room(draft_.model.relations[index(road_relation_)].rows, roads);
     make_room(draft_.model.relations[index(landmark_relation_)].rows, landmarks);
     make_room(draft_.model.points, landmarks);
@@ -276,7 +277,7 @@ class MapReader {
   }
 
   void set(RowId row, Field field, Value value) {
-    if (field) draft_.model.values[draft_.model[row].first + *field] = value;
+    if (field) set_field(draft_, row, *field, value);
   }
 
   std::uint32_t exit_of(syntax::Name name) {
