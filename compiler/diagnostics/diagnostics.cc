@@ -130,10 +130,6 @@ void Diagnostics::finish(Diagnostic&& d) {
                      fill(Kind::kTooManyMessages, {most, error ? "errors" : "warnings"}), {}, {}});
 }
 
-std::optional<std::string> Diagnostics::nearest(std::string_view word, std::span<const std::string_view> candidates) const {
-  return full() ? std::nullopt : closest(word, candidates);
-}
-
 bool Diagnostics::Said::operator<(const Said& that) const {
   const auto key = [](const Said& s) {
     return std::tie(s.kind, s.span.file, s.span.begin, s.span.end, s.other.file, s.other.begin, s.other.end, s.message);

@@ -141,10 +141,9 @@ std::optional<std::size_t> find_field(const Relation& relation, std::string_view
 }
 
 void report_unknown_field(Draft& draft, const Relation& relation, const syntax::Name& field) {
-  const std::vector<std::string_view> candidates(relation.fields.begin(), relation.fields.end());
   draft.diagnostics.report(Kind::kUnknownField, field.span, {relation.name, field.text})
       .note(Kind::kNameDeclaredHere, relation.declared, {relation.name})
-      .suggest(diagnostics::closest(field.text, candidates));
+      .suggest(draft.diagnostics.nearest(field.text, relation.fields));
 }
 
 const Value* Model::field(const Row& row, std::string_view name) const {

@@ -95,13 +95,10 @@ class ControlReader {
       return one.name == argument.name && !one.group;
     });
     if (input == controller.inputs.end()) {
-      std::vector<std::string_view> candidates;
-      for (const fuzzy::Input& one : controller.inputs) {
-        if (!one.group) candidates.push_back(one.name);
-      }
       draft_.diagnostics.report(Kind::kFuzzyArgument, from.name.span, {controller.name, argument.name})
           .note(Kind::kNameDeclaredHere, controller.declared, {controller.name})
-          .suggest(diagnostics::closest(argument.name, candidates));
+          .suggest(draft_.diagnostics.nearest(argument.name, controller.inputs,
+                                              [](const fuzzy::Input& one) { return one.group ? std::string_view() : std::string_view(one.name); }));
       return false;
     }
     if (from.number) {
@@ -150,9 +147,7 @@ class ControlReader {
       }
     }
     const FiniteSet& known = draft_.model.sets[kb::model::index(set)];
-    const std::vector<std::string_view> candidates(known.members.begin(), known.members.end());
-    draft_.diagnostics.report(Kind::kControlVariable, ref->span, {text, known.name})
-        .suggest(diagnostics::closest(text, candidates));
+    draft_.diagnostics.report(Kind::kControlVariable, ref->span, {text, known.name}).suggest(draft_.diagnostics.nearest(text, known.members));
     return false;
   }
 

@@ -178,10 +178,10 @@ void References::report_unknown(const syntax::Name& name) {
     draft_.diagnostics.report(Kind::kUnknownName, name.span, {name.text}).note(Kind::kTermAlone, {}, {name.text});
     return;
   }
-  std::vector<std::string_view> candidates;
-  for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
-  for (const Names::Named& known : draft_.names.all()) candidates.push_back(known.text);
-  model::report_unknown(draft_, Kind::kUnknownName, name, draft_.diagnostics.nearest(name.text, candidates));
+  model::report_unknown(draft_, Kind::kUnknownName, name, draft_.diagnostics.nearest_of(name.text, [&](auto& candidates) {
+    for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
+    for (const Names::Named& known : draft_.names.all()) candidates.push_back(known.text);
+  }));
 }
 
 std::uint32_t References::compile_field(std::uint32_t object, const syntax::Postfix& postfix, source::Span span) {

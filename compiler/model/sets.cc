@@ -90,9 +90,7 @@ void add_more(Draft& draft, const syntax::NameSet& names) {
           .note(Kind::kNameDeclaredHere, relation->span, {names.name.text});
       return;
     }
-    std::vector<std::string_view> candidates;
-    for (const FiniteSet& known : draft.model.sets) candidates.emplace_back(known.name);
-    report_unknown(draft, Kind::kMoreOfUnknown, names.name, draft.diagnostics.nearest(names.name.text, candidates));
+    report_unknown(draft, Kind::kMoreOfUnknown, names.name, draft.diagnostics.nearest(names.name.text, draft.model.sets, &FiniteSet::name));
     return;
   }
   SetIndex& known = draft.sets[index(set->second)];
@@ -111,12 +109,12 @@ std::optional<SetId> need_set(Draft& draft, syntax::Name name, bool or_relation)
         .note(Kind::kNameDeclaredHere, entity->declared, {name.text});
     return std::nullopt;
   }
-  std::vector<std::string_view> candidates;
-  for (const FiniteSet& known : draft.model.sets) candidates.emplace_back(known.name);
-  for (const Relation& known : draft.model.relations) {
-    if (or_relation) candidates.emplace_back(known.name);
-  }
-  report_unknown(draft, Kind::kUnknownSet, name, draft.diagnostics.nearest(name.text, candidates));
+  report_unknown(draft, Kind::kUnknownSet, name, draft.diagnostics.nearest_of(name.text, [&](auto& candidates) {
+    for (const FiniteSet& known : draft.model.sets) candidates.emplace_back(known.name);
+    for (const Relation& known : draft.model.relations) {
+      if (or_relation) candidates.emplace_back(known.name);
+    }
+  }));
   return std::nullopt;
 }
 
