@@ -331,6 +331,11 @@ bool Confusions::share_readings(CellId first, CellId second) const {
   return std::any_of(a.begin(), a.end(), [&](std::uint32_t reading) { return b.contains(reading); });
 }
 
+bool Confusions::reads_number(CellId fact) const {
+  const std::set<std::uint32_t>& readings = impl_->readings_of(fact);
+  return std::any_of(readings.begin(), readings.end(), [&](std::uint32_t reading) { return !impl_->program.perception.sensor_of(reading).text; });
+}
+
 std::vector<std::size_t> Confusions::sharing_before(std::size_t perceived) {
   std::vector<std::size_t> sharing;
   for (const std::uint32_t reading : impl_->readings_of(impl_->program.perception.perceived[perceived].fact)) {

@@ -137,6 +137,8 @@ class Diagnostics {
 
   /// True once no further error is handed on. Costly work that serves only the wording of an error can then be skipped.
   [[nodiscard]] bool full() const { return errors_ >= kMaxErrors; }
+  /// True once no further warning of this kind is handed on: it is off, all warnings are, or enough were reported.
+  [[nodiscard]] bool full(Kind warning) const;
   /// `closest`, for an error about to be reported; nothing if `full`. The cost is linear in the candidates, and if the file that
   /// declares them is missing or the wrong one, there are as many errors as names. `name` makes a candidate a view of something that
   /// lives on; what it makes empty is no candidate.
@@ -167,6 +169,7 @@ class Diagnostics {
   friend class Builder;
   void finish(Diagnostic&& diagnostic);
   bool wanted(Diagnostic& diagnostic) const;
+  [[nodiscard]] bool raised(Kind warning) const;   // to an error
   const source::Sources& sources_;
   Consumer& consumer_;
   WarningOptions options_;
