@@ -123,6 +123,7 @@ struct Draft {
   Model model;
   Names names;
   std::vector<SetIndex> sets;                       // beside model.sets
+  std::unordered_map<std::string_view, SetId> set_with;  // by member: the first set that holds it
   std::unordered_map<std::string_view, SetId> set_of;  // finite sets and the members of groups, by name
   std::vector<OwnThreshold> own_thresholds;
   std::vector<SensorInfo> sensors;                  // beside model.sensors
@@ -170,6 +171,11 @@ struct Draft {
   }
   /// A member of the set; none if it is kNone32.
   [[nodiscard]] static Value value(SetId set, std::uint32_t member) { return member == kNone32 ? Value{} : Value{Member{set, member}}; }
+  /// The member of that name, of the first set that has one.
+  [[nodiscard]] std::optional<Member> member_anywhere(std::string_view text) const {
+    const auto set = set_with.find(text);
+    return set == set_with.end() ? std::nullopt : member(set->second, text);
+  }
   [[nodiscard]] std::optional<Member> member(SetId set, std::string_view text) const {
     const auto& members = sets[index(set)].members;
     const auto found = members.find(text);

@@ -57,9 +57,7 @@ class RowReader {
     if (!bare) return keep(field);
     const syntax::Ref& ref = tree_[cond.ref];
     if (ref.postfixes.empty() && draft_.names.find(ref.base.text) == nullptr) {
-      for (std::uint32_t set = 0; set < draft_.sets.size(); ++set) {
-        if (const auto member = draft_.member(SetId{set}, ref.base.text)) return *member;
-      }
+      if (const auto member = draft_.member_anywhere(ref.base.text)) return *member;
     }
     const Operand operand = references_.evaluate(references_.compile(cond.ref), {});
     switch (operand.kind) {

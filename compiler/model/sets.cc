@@ -124,6 +124,10 @@ void declare_sets(Draft& draft) {
       [&](const auto&, const auto&, const auto& declaration) { declare_members_of_groups(draft, declaration); });
   alias_groups(draft);
   draft.each<syntax::NameSet>([&](const auto&, const auto&, const auto& names) { add_more(draft, names); });
+  // Only now: a set may get a member by `more` that a later set had before.
+  for (std::uint32_t set = 0; set < draft.sets.size(); ++set) {
+    for (const auto& [member, place] : draft.sets[set].members) draft.set_with.emplace(member, SetId{set});
+  }
 }
 
 }  // namespace kb::model
