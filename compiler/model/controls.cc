@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "compiler/model/references.h"
 #include "compiler/model/shapes.h"
@@ -54,9 +55,9 @@ class ControlReader {
 
   bool read_arguments() {
     bool good = true;
+    std::set<std::string_view> known;
     for (const syntax::Control::Argument& from : control_.arguments) {
-      const auto same = [&from](const Control::Argument& known) { return known.name == from.name.text; };
-      if (std::any_of(arguments_.begin(), arguments_.end(), same)) {
+      if (!known.insert(from.name.text).second) {
         draft_.diagnostics.report(Kind::kControlArgumentTwice, from.name.span, {from.name.text});
         good = false;
         continue;
