@@ -182,7 +182,7 @@ struct Confusions::Impl {
     return sensor.low + (sensor.high - sensor.low) * static_cast<double>(i) / kGrid;
   }
 
-  [[nodiscard]] double least_at(std::span<const Literal> same, const program::Sensor& sensor, double x, double worth = -2.0) const {
+  [[nodiscard]] double least_at(std::span<const Literal> same, const program::Sensor& sensor, double x, double worth) const {
     double least = 2.0;
     for (std::size_t l = 0; l < same.size() && least > worth; ++l) least = std::min(least, at(same[l], sensor, x));
     return least;

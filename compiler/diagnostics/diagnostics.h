@@ -1,7 +1,7 @@
 // What the compiler says: messages that are declared once (kinds.def), carried as values, printed by consumers.
 //
 //   diagnostics.report(Kind::kUnknownName, span, {name})
-//       .note(Kind::kDeclaredHere, first_span, {})
+//       .note(Kind::kNameDeclaredHere, first_span, {name})
 //       .suggest("LM13");
 //
 // A message is complete when the builder dies (at the end of the statement); it then goes to the consumer.
