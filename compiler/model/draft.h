@@ -224,7 +224,7 @@ void set_field(Draft& draft, RowId row, std::string_view field, Value value);
 /// Sets the field at this place of the relation.
 void set_field(Draft& draft, RowId row, std::size_t place, Value value);
 /// A field of a row as one number.
-[[nodiscard]] constexpr std::uint64_t field_key(RowId row, std::size_t field) { return (std::uint64_t{index(row)} << 16) | field; }
+[[nodiscard]] constexpr std::uint64_t field_key(RowId row, std::size_t field) { return (std::uint64_t{index(row)} << 32) | field; }
 [[nodiscard]] std::optional<std::size_t> find_field(const Relation& relation, std::string_view field);
 void report_unknown_field(Draft& draft, const Relation& relation, const syntax::Name& field);
 
