@@ -92,7 +92,7 @@ struct Frame {
   std::vector<std::uint32_t> events, lost;    ///< facts newly seen, and no longer seen
   std::vector<std::uint32_t> fired;       ///< rules, in order
   std::int32_t strategy = -1;             ///< index into the cells, -1: none
-  std::string status;                     ///< as the trace says it: `ok`, `idle_stop`, ...
+  std::string status;                     ///< as the trace says it: `ok`, `no_strategy`, ...
   std::string leg;                        ///< the current leg, "" without a mission
   std::vector<std::string> notes;         ///< what the scenario did, or what went wrong: `road LM7.E closed`
 };

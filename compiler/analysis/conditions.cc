@@ -50,13 +50,7 @@ class ConditionQuestions {
 
   /// By condition: whether it contains a `for`.
   [[nodiscard]] std::vector<bool> find_timed() const {
-    std::vector<bool> timed(program_.conds.size(), false);
-    for (std::size_t i = 0; i < program_.conds.size(); ++i) {
-      const Cond& cond = program_.conds[i];
-      timed[i] = cond.op == Cond::Op::kFor || std::any_of(cond.children.begin(), cond.children.end(),
-                                                          [&](CondId part) { return timed[program::index(part)]; });
-    }
-    return timed;
+    return program::marked(program_, [](const Cond& cond) { return cond.op == Cond::Op::kFor; });
   }
 
   void diagnose_timers() {

@@ -182,7 +182,7 @@ struct Confusions::Impl {
     return sensor.low + (sensor.high - sensor.low) * static_cast<double>(i) / kGrid;
   }
 
-  [[nodiscard]] double least_at(std::span<const Literal> same, const program::Sensor& sensor, double x, double worth = -2.0) const {
+  [[nodiscard]] double least_at(std::span<const Literal> same, const program::Sensor& sensor, double x, double worth) const {
     double least = 2.0;
     for (std::size_t l = 0; l < same.size() && least > worth; ++l) least = std::min(least, at(same[l], sensor, x));
     return least;
@@ -329,6 +329,11 @@ bool Confusions::share_readings(CellId first, CellId second) const {
   const std::set<std::uint32_t>& a = impl_->readings_of(first);
   const std::set<std::uint32_t>& b = impl_->readings_of(second);
   return std::any_of(a.begin(), a.end(), [&](std::uint32_t reading) { return b.contains(reading); });
+}
+
+bool Confusions::reads_number(CellId fact) const {
+  const std::set<std::uint32_t>& readings = impl_->readings_of(fact);
+  return std::any_of(readings.begin(), readings.end(), [&](std::uint32_t reading) { return !impl_->program.perception.sensor_of(reading).text; });
 }
 
 std::vector<std::size_t> Confusions::sharing_before(std::size_t perceived) {

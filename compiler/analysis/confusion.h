@@ -55,6 +55,8 @@ class Confusions {
   [[nodiscard]] bool looked_into(program::CellId fact);
   /// Whether some reading takes part in both definitions.
   [[nodiscard]] bool share_readings(program::CellId first, program::CellId second) const;
+  /// Whether its definition asks for some reading of a number. To compare two such facts may cost some hundred evaluations.
+  [[nodiscard]] bool reads_number(program::CellId fact) const;
   /// The perceived facts before this one that share a reading with it, ascending, as indexes into the program's perceived facts.
   /// Must be called for each fact once, in order.
   [[nodiscard]] std::vector<std::size_t> sharing_before(std::size_t perceived);

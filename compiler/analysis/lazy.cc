@@ -34,12 +34,7 @@ class Lazy {
  public:
   explicit Lazy(const Subject& subject) : subject_(subject), program_(subject.program), facts_(program_.perception.lazy_facts()) {
     for (std::size_t i = 0; i < facts_.size(); ++i) place_of_.emplace(facts_[i], i);
-    reads_.assign(program_.conds.size(), false);
-    for (std::size_t i = 0; i < program_.conds.size(); ++i) {
-      const Cond& cond = program_.conds[i];
-      reads_[i] = (!program::has_parts(cond.op) && is_lazy(cond.cell)) ||
-                  std::any_of(cond.children.begin(), cond.children.end(), [&](CondId child) { return reads_[program::index(child)]; });
-    }
+    reads_ = program::marked(program_, [&](const Cond& cond) { return !program::has_parts(cond.op) && is_lazy(cond.cell); });
   }
 
   void diagnose() {

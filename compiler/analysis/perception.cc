@@ -18,6 +18,7 @@ using program::CellId;
 using program::Program;
 
 constexpr std::size_t kMostConfusablePairs = 200'000;
+constexpr std::size_t kMostPairsOfNumbers = 20'000;   // a text is compared at once, a number by a search
 
 /// Families of facts of which two must not be believed at once: members of a group, and landmarks. By the program's cells.
 struct Families {
@@ -55,17 +56,21 @@ void diagnose_confusable(const model::Model& model, const Program& program, Conf
   const auto& perceived = program.perception.perceived;
   if (perceived.size() < 2) return;
   const Families family = families(model, program);
-  std::size_t pairs = 0;
+  std::size_t pairs = 0, of_numbers = 0;
   for (const program::Perceived& one : perceived) {
     if (!confusions.looked_into(one.fact)) {
       diagnostics.report(Kind::kConfusionOfMany, one.span, {program[one.fact].name, std::to_string(Definitions::kMostTerms)});
     }
   }
   for (std::size_t k = 0; k < perceived.size(); ++k) {
+    const CellId b = perceived[k].fact;
+    const bool number = confusions.reads_number(b);
     for (const std::size_t i : confusions.sharing_before(k)) {
-      const CellId a = perceived[i].fact, b = perceived[k].fact;
-      if (++pairs > kMostConfusablePairs) {
-        diagnostics.report(Kind::kConfusionNotAsked, perceived[k].span, {std::to_string(kMostConfusablePairs), program[b].name});
+      if (diagnostics.full(Kind::kConfusable)) return;
+      const CellId a = perceived[i].fact;
+      const bool numbers = number && confusions.reads_number(a);
+      if (++pairs > kMostConfusablePairs || (numbers && ++of_numbers > kMostPairsOfNumbers)) {
+        diagnostics.report(Kind::kConfusionNotAsked, perceived[k].span, {std::to_string(pairs - 1), program[b].name});
         return;
       }
       const bool landmarks = family.landmarks.contains(a) && family.landmarks.contains(b);

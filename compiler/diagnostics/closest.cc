@@ -54,7 +54,7 @@ std::optional<std::string> closest(std::string_view word, std::span<const std::s
   if (word.empty() || word.size() > kMaxCompared) return std::nullopt;
   const std::string seen = appearance(word);
   for (const std::string_view candidate : candidates) {
-    if (candidate != word && appearance(candidate) == seen) return std::string(candidate);
+    if (!candidate.empty() && candidate != word && appearance(candidate) == seen) return std::string(candidate);
   }
   std::size_t best = 2 + word.size() / 4;   // one more than the largest distance that counts
   std::optional<std::string> found;

@@ -108,9 +108,17 @@ bool Diagnostics::wanted(Diagnostic& d) const {
   if (d.severity != Severity::kWarning) return true;
   const bool library = d.span.known() && sources_.standard(d.span.file) && !options_.standard_library;
   if (options_.none || library || holds(options_.off, d.kind)) return false;
-  const bool raised = holds(options_.error, d.kind) || (options_.all_errors && !holds(options_.never_error, d.kind));
-  if (raised) d.severity = Severity::kError;
+  if (raised(d.kind)) d.severity = Severity::kError;
   return true;
+}
+
+bool Diagnostics::raised(Kind warning) const {
+  return holds(options_.error, warning) || (options_.all_errors && !holds(options_.never_error, warning));
+}
+
+// The first that is not handed on counts as well: it says that there are more.
+bool Diagnostics::full(Kind warning) const {
+  return options_.none || holds(options_.off, warning) || (raised(warning) ? errors_ : warnings_) > kMaxErrors;
 }
 
 void Diagnostics::finish(Diagnostic&& d) {
@@ -128,10 +136,6 @@ void Diagnostics::finish(Diagnostic&& d) {
   const std::string most = fmt::format("{}", kMaxErrors);
   consumer_.consume({Kind::kTooManyMessages, Severity::kNote, {},
                      fill(Kind::kTooManyMessages, {most, error ? "errors" : "warnings"}), {}, {}});
-}
-
-std::optional<std::string> Diagnostics::nearest(std::string_view word, std::span<const std::string_view> candidates) const {
-  return full() ? std::nullopt : closest(word, candidates);
 }
 
 bool Diagnostics::Said::operator<(const Said& that) const {

@@ -1,7 +1,7 @@
 // What the compiler says: messages that are declared once (kinds.def), carried as values, printed by consumers.
 //
 //   diagnostics.report(Kind::kUnknownName, span, {name})
-//       .note(Kind::kDeclaredHere, first_span, {})
+//       .note(Kind::kNameDeclaredHere, first_span, {name})
 //       .suggest("LM13");
 //
 // A message is complete when the builder dies (at the end of the statement); it then goes to the consumer.
@@ -111,6 +111,14 @@ class Builder {
   Diagnostic diagnostic_;
 };
 
+/// The candidate that was probably meant by `word`:
+/// 1. the one that looks like it (look_alike.h); else
+/// 2. the nearest by edit distance (a transposition counts one, ASCII case nothing), if the distance is <= 1 + length/4 and less
+///    than half of the longer word; of several equally near, the first; else
+/// 3. the shortest that begins with `word`, or ends with it after a `.`.
+/// Nothing for words of more than 128 bytes.
+[[nodiscard]] std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates);
+
 /// Hands messages on to one consumer, counts them, and stops an avalanche: at most `kMaxErrors` errors and as many warnings
 /// are handed on (a last note without a place says so), no two messages of one kind at one place, and only one that says that a certain
 /// name is unknown.
@@ -129,9 +137,25 @@ class Diagnostics {
 
   /// True once no further error is handed on. Costly work that serves only the wording of an error can then be skipped.
   [[nodiscard]] bool full() const { return errors_ >= kMaxErrors; }
+  /// True once no further warning of this kind is handed on: it is off, all warnings are, or enough were reported.
+  [[nodiscard]] bool full(Kind warning) const;
   /// `closest`, for an error about to be reported; nothing if `full`. The cost is linear in the candidates, and if the file that
-  /// declares them is missing or the wrong one, there are as many errors as names.
-  [[nodiscard]] std::optional<std::string> nearest(std::string_view word, std::span<const std::string_view> candidates) const;
+  /// declares them is missing or the wrong one, there are as many errors as names. `name` makes a candidate a view of something that
+  /// lives on; what it makes empty is no candidate.
+  template <class Candidates, class Name = std::identity>
+  [[nodiscard]] std::optional<std::string> nearest(std::string_view word, const Candidates& candidates, Name name = {}) const {
+    return nearest_of(word, [&](std::vector<std::string_view>& views) {
+      for (const auto& one : candidates) views.emplace_back(std::invoke(name, one));
+    });
+  }
+  /// The same; `list` appends the candidates to the vector that it is given.
+  template <class List>
+  [[nodiscard]] std::optional<std::string> nearest_of(std::string_view word, List list) const {
+    if (full()) return std::nullopt;
+    std::vector<std::string_view> views;
+    list(views);
+    return closest(word, views);
+  }
 
   [[nodiscard]] std::size_t errors() const { return errors_; }
   [[nodiscard]] std::size_t warnings() const { return warnings_; }
@@ -145,6 +169,7 @@ class Diagnostics {
   friend class Builder;
   void finish(Diagnostic&& diagnostic);
   bool wanted(Diagnostic& diagnostic) const;
+  [[nodiscard]] bool raised(Kind warning) const;   // to an error
   const source::Sources& sources_;
   Consumer& consumer_;
   WarningOptions options_;
@@ -161,14 +186,6 @@ class Diagnostics {
   };
   std::set<Said> said_;
 };
-
-/// The candidate that was probably meant by `word`:
-/// 1. the one that looks like it (look_alike.h); else
-/// 2. the nearest by edit distance (a transposition counts one, ASCII case nothing), if the distance is <= 1 + length/4 and less
-///    than half of the longer word; of several equally near, the first; else
-/// 3. the shortest that begins with `word`, or ends with it after a `.`.
-/// Nothing for words of more than 128 bytes.
-[[nodiscard]] std::optional<std::string> closest(std::string_view word, std::span<const std::string_view> candidates);
 
 /// Whether `written` is `meant` with one slip: a letter added, missing or replaced, or two letters swapped. More than one makes it
 /// another name: `follow_rail` is not a misspelt `follow_wall`. Names of less than four letters are never taken for slips.

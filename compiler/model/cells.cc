@@ -36,6 +36,14 @@ bool too_many_cells(Draft& draft, std::size_t more, std::string_view name, sourc
   return true;
 }
 
+bool too_many_values(Draft& draft, std::size_t more, const Relation& relation, source::Span at) {
+  if (draft.model.values.size() + more <= kMaxFieldValues && more <= kMaxFieldValues) return false;
+  if (!std::exchange(draft.exhausted, true)) {
+    draft.diagnostics.report(Kind::kTooManyFieldValues, at, {relation.name, fmt::format("{}", kMaxFieldValues)});
+  }
+  return true;
+}
+
 CellId own_satellite(const Model& model, CellId cell) {
   return model[cell].kind == CellKind::kSatellite ? CellId::kNone : model[cell].satellites.front();
 }
@@ -92,8 +100,11 @@ RowId add_row_of(Draft& draft, RelationId relation, std::string_view name, sourc
   Model& model = draft.model;
   Relation& owner = model.relations[index(relation)];
   const RowId id{static_cast<std::uint32_t>(model.rows.size())};
-  model.rows.push_back({name, relation, cell, static_cast<std::uint32_t>(model.values.size()), at});
-  model.values.resize(model.values.size() + owner.fields.size());
+  model.rows.push_back({name, relation, cell, Row::kNoFields, at});
+  if (!too_many_values(draft, owner.fields.size(), owner, at)) {
+    model.rows.back().first = static_cast<std::uint32_t>(model.values.size());
+    model.values.resize(model.values.size() + owner.fields.size());
+  }
   owner.rows.push_back(id);
   return id;
 }
@@ -130,10 +141,9 @@ std::optional<std::size_t> find_field(const Relation& relation, std::string_view
 }
 
 void report_unknown_field(Draft& draft, const Relation& relation, const syntax::Name& field) {
-  const std::vector<std::string_view> candidates(relation.fields.begin(), relation.fields.end());
   draft.diagnostics.report(Kind::kUnknownField, field.span, {relation.name, field.text})
       .note(Kind::kNameDeclaredHere, relation.declared, {relation.name})
-      .suggest(diagnostics::closest(field.text, candidates));
+      .suggest(draft.diagnostics.nearest(field.text, relation.fields));
 }
 
 const Value* Model::field(const Row& row, std::string_view name) const {
@@ -163,8 +173,12 @@ std::span<const RowId> Model::rows_of(std::string_view relation) const {
 }
 
 void set_field(Draft& draft, RowId row, std::string_view field, Value value) {
-  const Row& one = draft.model[row];
-  if (const auto place = find_field(draft.model[one.relation], field)) draft.model.values[one.first + *place] = std::move(value);
+  if (const auto place = find_field(draft.model[draft.model[row].relation], field)) set_field(draft, row, *place, std::move(value));
+}
+
+void set_field(Draft& draft, RowId row, std::size_t place, Value value) {
+  const std::uint32_t first = draft.model[row].first;
+  if (first != Row::kNoFields) draft.model.values[first + place] = std::move(value);
 }
 
 const Entity* need_entity(Draft& draft, const syntax::Name& name, Entity::Kind wanted, Kind unknown, Kind other) {

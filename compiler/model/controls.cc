@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "compiler/model/references.h"
 #include "compiler/model/shapes.h"
@@ -54,9 +55,9 @@ class ControlReader {
 
   bool read_arguments() {
     bool good = true;
+    std::set<std::string_view> known;
     for (const syntax::Control::Argument& from : control_.arguments) {
-      const auto same = [&from](const Control::Argument& known) { return known.name == from.name.text; };
-      if (std::any_of(arguments_.begin(), arguments_.end(), same)) {
+      if (!known.insert(from.name.text).second) {
         draft_.diagnostics.report(Kind::kControlArgumentTwice, from.name.span, {from.name.text});
         good = false;
         continue;
@@ -95,13 +96,10 @@ class ControlReader {
       return one.name == argument.name && !one.group;
     });
     if (input == controller.inputs.end()) {
-      std::vector<std::string_view> candidates;
-      for (const fuzzy::Input& one : controller.inputs) {
-        if (!one.group) candidates.push_back(one.name);
-      }
       draft_.diagnostics.report(Kind::kFuzzyArgument, from.name.span, {controller.name, argument.name})
           .note(Kind::kNameDeclaredHere, controller.declared, {controller.name})
-          .suggest(diagnostics::closest(argument.name, candidates));
+          .suggest(draft_.diagnostics.nearest(argument.name, controller.inputs,
+                                              [](const fuzzy::Input& one) { return one.group ? std::string_view() : std::string_view(one.name); }));
       return false;
     }
     if (from.number) {
@@ -150,9 +148,7 @@ class ControlReader {
       }
     }
     const FiniteSet& known = draft_.model.sets[kb::model::index(set)];
-    const std::vector<std::string_view> candidates(known.members.begin(), known.members.end());
-    draft_.diagnostics.report(Kind::kControlVariable, ref->span, {text, known.name})
-        .suggest(diagnostics::closest(text, candidates));
+    draft_.diagnostics.report(Kind::kControlVariable, ref->span, {text, known.name}).suggest(draft_.diagnostics.nearest(text, known.members));
     return false;
   }
 

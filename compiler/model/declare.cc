@@ -269,9 +269,8 @@ void declare_relation(Draft& draft, const syntax::Relation& from) {
   }
   for (const syntax::Name& field : from.of) {
     if (find_field(relation, field.text)) continue;
-    std::vector<std::string_view> candidates(relation.fields.begin(), relation.fields.end());
     draft.diagnostics.report(Kind::kOfUnknownField, field.span, {relation.name, field.text})
-        .suggest(diagnostics::closest(field.text, candidates));
+        .suggest(draft.diagnostics.nearest(field.text, relation.fields));
   }
   draft.model.relations.push_back(std::move(relation));
 }

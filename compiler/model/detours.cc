@@ -109,7 +109,6 @@ class DetourReader {
     set_field(draft_, row, "instead", draft_.legs[leg].row);
     set_field(draft_, row, "first", draft_.legs[first].row);
     KeptCondition kept;
-    kept.leg = draft_.legs[leg].row;
     if (detour_.when) {
       kept.tree = &tree_;
       kept.condition = *detour_.when;

@@ -22,6 +22,7 @@ inline constexpr std::uint32_t kNone32 = 0xFFFFFFFFu;
 
 /// Limits, each named in its message.
 inline constexpr std::size_t kMaxCells = std::size_t{1} << 24;
+inline constexpr std::size_t kMaxFieldValues = std::size_t{1} << 26;   ///< fields of all rows
 inline constexpr std::size_t kMaxInstances = 10'000'000;            ///< combinations tried for one rule
 inline constexpr std::size_t kMaxRules = std::size_t{1} << 22;      ///< instances in all
 inline constexpr std::size_t kMaxEffects = std::size_t{1} << 25;    ///< effects of all instances
@@ -122,6 +123,7 @@ struct Draft {
   Model model;
   Names names;
   std::vector<SetIndex> sets;                       // beside model.sets
+  std::unordered_map<std::string_view, SetId> set_with;  // by member: the first set that holds it
   std::unordered_map<std::string_view, SetId> set_of;  // finite sets and the members of groups, by name
   std::vector<OwnThreshold> own_thresholds;
   std::vector<SensorInfo> sensors;                  // beside model.sensors
@@ -169,6 +171,11 @@ struct Draft {
   }
   /// A member of the set; none if it is kNone32.
   [[nodiscard]] static Value value(SetId set, std::uint32_t member) { return member == kNone32 ? Value{} : Value{Member{set, member}}; }
+  /// The member of that name, of the first set that has one.
+  [[nodiscard]] std::optional<Member> member_anywhere(std::string_view text) const {
+    const auto set = set_with.find(text);
+    return set == set_with.end() ? std::nullopt : member(set->second, text);
+  }
   [[nodiscard]] std::optional<Member> member(SetId set, std::string_view text) const {
     const auto& members = sets[index(set)].members;
     const auto found = members.find(text);
@@ -189,6 +196,8 @@ void report_only_certain(const Forest& forest, diagnostics::Diagnostics& diagnos
 CellId add_cell(Draft& draft, Cell cell, float own_initial = -1.0f);
 /// True if `more` cells would be too many, which is reported.
 bool too_many_cells(Draft& draft, std::size_t more, std::string_view name, source::Span at);
+/// True if `more` fields in rows of the relation would be too many, which is reported.
+bool too_many_values(Draft& draft, std::size_t more, const Relation& relation, source::Span at);
 /// The own satellite of a fact or strategy.
 [[nodiscard]] CellId own_satellite(const Model& model, CellId cell);
 /// `satellite` draws attention to `cell`.
@@ -202,7 +211,7 @@ void attach(Model& model, CellId satellite, CellId cell);
 RelationId implicit_relation(Draft& draft, std::string_view name, source::Span at);
 /// The same, and reports that it is not declared (`what` writes its rows), once for all relations of the library.
 RelationId need_relation(Draft& draft, std::string_view name, std::string_view what, source::Span at);
-/// A new row of this cell, with all its fields missing. `name` is one of the model's texts.
+/// A new row of this cell, with all its fields missing; if they are too many, it gets none. `name` is one of the model's texts.
 RowId add_row_of(Draft& draft, RelationId relation, std::string_view name, source::Span at, CellId cell);
 /// A new row, named by its parts joined (they are copied). It gets a satellite of its own if the relation has satellites.
 RowId add_row(Draft& draft, RelationId relation, std::initializer_list<std::string_view> name, source::Span at);
@@ -212,8 +221,10 @@ PointId add_point(Model& model, Point point);
 KeptId add_kept(Model& model, KeptCondition kept);
 /// Sets a field if the relation has it.
 void set_field(Draft& draft, RowId row, std::string_view field, Value value);
+/// Sets the field at this place of the relation.
+void set_field(Draft& draft, RowId row, std::size_t place, Value value);
 /// A field of a row as one number.
-[[nodiscard]] constexpr std::uint64_t field_key(RowId row, std::size_t field) { return (std::uint64_t{index(row)} << 16) | field; }
+[[nodiscard]] constexpr std::uint64_t field_key(RowId row, std::size_t field) { return (std::uint64_t{index(row)} << 32) | field; }
 [[nodiscard]] std::optional<std::size_t> find_field(const Relation& relation, std::string_view field);
 void report_unknown_field(Draft& draft, const Relation& relation, const syntax::Name& field);
 

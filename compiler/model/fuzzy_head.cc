@@ -187,11 +187,8 @@ auto FuzzyHead::find(const syntax::Name& name, bool output, std::string_view wan
         .note(Kind::kNameDeclaredHere, found->second.declared, {name.text});
     return nullptr;
   }
-  std::vector<std::string_view> candidates;
-  if (output) for (const auto& one : to_.outputs) candidates.push_back(one.name);
-  else for (const auto& one : to_.inputs) candidates.push_back(one.name);
   diagnostics().report(Kind::kFuzzyUnknownVariable, name.span, {from_.name.text, output ? "output" : "input", name.text})
-      .suggest(diagnostics::closest(name.text, candidates));
+      .suggest(output ? diagnostics().nearest(name.text, to_.outputs, &fuzzy::Output::name) : diagnostics().nearest(name.text, to_.inputs, &fuzzy::Input::name));
   return nullptr;
 }
 

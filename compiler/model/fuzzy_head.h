@@ -48,7 +48,7 @@ class FuzzyHead {
     }
     constexpr std::size_t kShown = 12;
     const std::string known = candidates.empty() ? "none" : diagnostics::listed(candidates, kShown);
-    diagnostics().report(diagnostics::Kind::kFuzzyUnknownTerm, name.span, {of.name, name.text, known}).suggest(diagnostics::closest(name.text, candidates));
+    diagnostics().report(diagnostics::Kind::kFuzzyUnknownTerm, name.span, {of.name, name.text, known}).suggest(diagnostics().nearest(name.text, candidates));
     good_ = false;
     return nullptr;
   }

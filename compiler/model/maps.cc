@@ -110,7 +110,8 @@ class MapReader {
     const std::size_t landmarks = map_.landmarks.size(), roads = 2 * map_.roads.size();
     make_room(draft_.model.cells, 2 * landmarks);
     make_room(draft_.model.rows, landmarks + roads);
-    make_room(draft_.model.values, landmarks * draft_.model[landmark_relation_].fields.size() + roads * draft_.model[road_relation_].fields.size());
+    const std::size_t values = landmarks * draft_.model[landmark_relation_].fields.size() + roads * draft_.model[road_relation_].fields.size();
+    make_room(draft_.model.values, std::min(values, kMaxFieldValues));
     make_room(draft_.model.relations[index(road_relation_)].rows, roads);
     make_room(draft_.model.relations[index(landmark_relation_)].rows, landmarks);
     make_room(draft_.model.points, landmarks);
@@ -170,10 +171,8 @@ class MapReader {
       if (draft_.landmarks[found].map == map_id_) return remember(found);
     }
     if (draft_.lost_landmarks.contains(name.text)) return std::nullopt;
-    std::vector<std::string_view> candidates;
-    for (const syntax::Landmark& known : map_.landmarks) candidates.push_back(known.name.text);
     draft_.diagnostics.report(Kind::kRoadUnknownLandmark, name.span, {map_.name.text, name.text})
-        .suggest(draft_.diagnostics.nearest(name.text, candidates));
+        .suggest(draft_.diagnostics.nearest(name.text, map_.landmarks, [](const syntax::Landmark& known) { return known.name.text; }));
     return std::nullopt;
   }
 
@@ -276,7 +275,7 @@ class MapReader {
   }
 
   void set(RowId row, Field field, Value value) {
-    if (field) draft_.model.values[draft_.model[row].first + *field] = value;
+    if (field) set_field(draft_, row, *field, value);
   }
 
   std::uint32_t exit_of(syntax::Name name) {
@@ -290,9 +289,9 @@ class MapReader {
   std::uint32_t member_of(SetId id, syntax::Name name, Kind unknown, Kind without_set, bool& said) {
     if (id == SetId::kNone) {
       if (draft_.library_missing || std::exchange(said, true)) return kNone32;
-      std::vector<std::string_view> members;
-      for (const FiniteSet& set : draft_.model.sets) members.insert(members.end(), set.members.begin(), set.members.end());
-      draft_.diagnostics.report(without_set, name.span, {name.text}).suggest(draft_.diagnostics.nearest(name.text, members));
+      draft_.diagnostics.report(without_set, name.span, {name.text}).suggest(draft_.diagnostics.nearest_of(name.text, [&](auto& members) {
+        for (const FiniteSet& set : draft_.model.sets) members.insert(members.end(), set.members.begin(), set.members.end());
+      }));
       return kNone32;
     }
     if (const auto member = draft_.member(id, name.text)) return member->index;

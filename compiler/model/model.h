@@ -73,13 +73,11 @@ struct Group {
 
 struct Member { SetId set = SetId::kNone; std::uint32_t index = 0; };
 struct Point { double x = 0.0, y = 0.0; };
-/// A condition kept in a row (`when`), not yet resolved: it is read when a rule that uses it is expanded. `exit` in it means the
-/// exit of `leg`.
+/// A condition kept in a row (`when`). Written ones are resolved once all rows exist, before any rule is expanded.
 struct KeptCondition {
   const syntax::Tree* tree = nullptr;  ///< null: the condition is always true, or its row was rejected
   syntax::CondId condition{};
-  RowId leg = RowId::kNone;
-  CondId resolved{};                   ///< planned conditions are resolved already
+  CondId resolved{};
   bool is_resolved = false;
 };
 /// What a field of a row holds; `std::monostate` is a missing field.

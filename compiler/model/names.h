@@ -49,11 +49,7 @@ class Names {
   /// The nearest name that satisfies `fits`, for "did you mean" (see Diagnostics::nearest).
   template <class Fits>
   [[nodiscard]] std::optional<std::string> nearest(std::string_view text, Fits fits, const diagnostics::Diagnostics& diagnostics) const {
-    std::vector<std::string_view> candidates;
-    for (const Named& one : all_) {
-      if (fits(one.entity)) candidates.push_back(one.text);
-    }
-    return diagnostics.nearest(text, candidates);
+    return diagnostics.nearest(text, all_, [&fits](const Named& one) { return fits(one.entity) ? one.text : std::string_view(); });
   }
   [[nodiscard]] std::optional<std::string> nearest(std::string_view text, Entity::Kind kind, const diagnostics::Diagnostics& diagnostics) const {
     return nearest(text, [kind](const Entity& entity) { return entity.kind == kind; }, diagnostics);

@@ -167,21 +167,20 @@ std::uint32_t References::compile_entity(const Entity& entity, const syntax::Ref
 
 void References::report_unknown(const syntax::Name& name) {
   if (name.text.empty() || !draft_.unknown_names.emplace(name.text, true).second) return;
-  for (std::size_t i = 0; i < draft_.sets.size(); ++i) {
-    const auto member = draft_.sets[i].members.find(name.text);
-    if (member == draft_.sets[i].members.end()) continue;
-    draft_.diagnostics.report(Kind::kBareMember, name.span, {name.text, draft_.model.sets[i].name})
-        .note(Kind::kNameDeclaredHere, draft_.model.sets[i].places[member->second], {name.text});
+  if (const auto member = draft_.member_anywhere(name.text)) {
+    const FiniteSet& set = draft_.model.sets[index(member->set)];
+    draft_.diagnostics.report(Kind::kBareMember, name.span, {name.text, set.name})
+        .note(Kind::kNameDeclaredHere, set.places[member->index], {name.text});
     return;
   }
   if (name.text == "low" || name.text == "zero" || name.text == "high") {
     draft_.diagnostics.report(Kind::kUnknownName, name.span, {name.text}).note(Kind::kTermAlone, {}, {name.text});
     return;
   }
-  std::vector<std::string_view> candidates;
-  for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
-  for (const Names::Named& known : draft_.names.all()) candidates.push_back(known.text);
-  model::report_unknown(draft_, Kind::kUnknownName, name, draft_.diagnostics.nearest(name.text, candidates));
+  model::report_unknown(draft_, Kind::kUnknownName, name, draft_.diagnostics.nearest_of(name.text, [&](auto& candidates) {
+    for (const Binder& binder : binders_) candidates.push_back(binder.name.text);
+    for (const Names::Named& known : draft_.names.all()) candidates.push_back(known.text);
+  }));
 }
 
 std::uint32_t References::compile_field(std::uint32_t object, const syntax::Postfix& postfix, source::Span span) {
@@ -350,10 +349,8 @@ std::uint32_t References::compile_argument(const syntax::Index& argument, SetId 
   if (bound || !ref.postfixes.empty()) return compile(argument.ref);
   if (const auto member = draft_.member(set, ref.base.text)) return add_constant(Operand::of(*member), ref.span);
   if (draft_.names.find(ref.base.text) != nullptr) return compile(argument.ref);
-  for (std::uint32_t other = 0; other < draft_.sets.size(); ++other) {
-    // A member of the wrong set is reported when it is evaluated.
-    if (const auto member = draft_.member(SetId{other}, ref.base.text)) return add_constant(Operand::of(*member), ref.span);
-  }
+  // A member of the wrong set is reported when it is evaluated.
+  if (const auto member = draft_.member_anywhere(ref.base.text)) return add_constant(Operand::of(*member), ref.span);
   report_unknown_index(ref.base, set);
   return add_broken(ref.span);
 }

@@ -38,7 +38,7 @@ class RowReader {
         given[*place] = true;
         draft_.field_spans.emplace(field_key(row_, *place), tree_[field.value].span);
         const Value value = value_of(field);
-        draft_.model.values[draft_.model[row_].first + *place] = value;
+        set_field(draft_, row_, *place, value);
       }
     }
   }
@@ -57,9 +57,7 @@ class RowReader {
     if (!bare) return keep(field);
     const syntax::Ref& ref = tree_[cond.ref];
     if (ref.postfixes.empty() && draft_.names.find(ref.base.text) == nullptr) {
-      for (std::uint32_t set = 0; set < draft_.sets.size(); ++set) {
-        if (const auto member = draft_.member(SetId{set}, ref.base.text)) return *member;
-      }
+      if (const auto member = draft_.member_anywhere(ref.base.text)) return *member;
     }
     const Operand operand = references_.evaluate(references_.compile(cond.ref), {});
     switch (operand.kind) {
@@ -88,9 +86,23 @@ class RowReader {
   RowId row_ = RowId::kNone;
 };
 
+/// Whether the rows would have too many fields; found out before memory is taken for them.
+bool too_many_rows(Draft& draft) {
+  std::size_t values = 0;
+  bool too_many = false;
+  draft.each<syntax::Row>([&](const auto&, const auto&, const syntax::Row& row) {
+    const auto relation = find_relation(draft, row.relation.text);
+    if (!relation || too_many) return;
+    values += draft.model[*relation].fields.size();
+    too_many = too_many_values(draft, values, draft.model[*relation], row.relation.span);
+  });
+  return too_many;
+}
+
 }  // namespace
 
 void write_rows(Draft& draft) {
+  if (too_many_rows(draft)) return;
   std::vector<std::unique_ptr<RowReader>> readers;
   draft.each<syntax::Row>([&](const syntax::Tree& tree, const auto&, const syntax::Row& row) {
     readers.push_back(std::make_unique<RowReader>(draft, tree, row));

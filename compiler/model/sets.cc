@@ -90,9 +90,7 @@ void add_more(Draft& draft, const syntax::NameSet& names) {
           .note(Kind::kNameDeclaredHere, relation->span, {names.name.text});
       return;
     }
-    std::vector<std::string_view> candidates;
-    for (const FiniteSet& known : draft.model.sets) candidates.emplace_back(known.name);
-    report_unknown(draft, Kind::kMoreOfUnknown, names.name, draft.diagnostics.nearest(names.name.text, candidates));
+    report_unknown(draft, Kind::kMoreOfUnknown, names.name, draft.diagnostics.nearest(names.name.text, draft.model.sets, &FiniteSet::name));
     return;
   }
   SetIndex& known = draft.sets[index(set->second)];
@@ -111,12 +109,12 @@ std::optional<SetId> need_set(Draft& draft, syntax::Name name, bool or_relation)
         .note(Kind::kNameDeclaredHere, entity->declared, {name.text});
     return std::nullopt;
   }
-  std::vector<std::string_view> candidates;
-  for (const FiniteSet& known : draft.model.sets) candidates.emplace_back(known.name);
-  for (const Relation& known : draft.model.relations) {
-    if (or_relation) candidates.emplace_back(known.name);
-  }
-  report_unknown(draft, Kind::kUnknownSet, name, draft.diagnostics.nearest(name.text, candidates));
+  report_unknown(draft, Kind::kUnknownSet, name, draft.diagnostics.nearest_of(name.text, [&](auto& candidates) {
+    for (const FiniteSet& known : draft.model.sets) candidates.emplace_back(known.name);
+    for (const Relation& known : draft.model.relations) {
+      if (or_relation) candidates.emplace_back(known.name);
+    }
+  }));
   return std::nullopt;
 }
 
@@ -126,6 +124,10 @@ void declare_sets(Draft& draft) {
       [&](const auto&, const auto&, const auto& declaration) { declare_members_of_groups(draft, declaration); });
   alias_groups(draft);
   draft.each<syntax::NameSet>([&](const auto&, const auto&, const auto& names) { add_more(draft, names); });
+  // Only now: a set may get a member by `more` that a later set had before.
+  for (std::uint32_t set = 0; set < draft.sets.size(); ++set) {
+    for (const auto& [member, place] : draft.sets[set].members) draft.set_with.emplace(member, SetId{set});
+  }
 }
 
 }  // namespace kb::model

@@ -82,9 +82,10 @@ void report_unknown(Draft& draft, Kind kind, const syntax::Name& name, std::opti
 }
 
 void report_unknown_member(Draft& draft, Kind kind, const syntax::Name& name, const MembersOf& of, const Variables& variables) {
-  std::vector<std::string_view> candidates(of.set.members.begin(), of.set.members.end());
-  candidates.insert(candidates.end(), variables.names.begin(), variables.names.end());
-  std::optional<std::string> nearest = draft.diagnostics.nearest(name.text, candidates);
+  std::optional<std::string> nearest = draft.diagnostics.nearest_of(name.text, [&](auto& candidates) {
+    candidates.assign(of.set.members.begin(), of.set.members.end());
+    candidates.insert(candidates.end(), variables.names.begin(), variables.names.end());
+  });
   if (!nearest && !variables.unused.empty()) nearest = variables.unused;
   const auto file = draft.library != nullptr ? draft.library->file_with_member(of.set.name, name.text) : std::nullopt;
   auto message = draft.diagnostics.report(kind, name.span, {name.text, of.name});

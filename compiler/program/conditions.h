@@ -1,6 +1,7 @@
 // Makes conditions: equal conditions share one node, however often they are asked for.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -48,6 +49,17 @@ class ConditionPool {
 /// True if `op` has parts.
 [[nodiscard]] constexpr bool has_parts(Cond::Op op) {
   return op == Cond::Op::kAnd || op == Cond::Op::kOr || op == Cond::Op::kNot || op == Cond::Op::kFor;
+}
+
+/// By condition: whether `asks` holds of it or of a part of it.
+template <class Asks>
+[[nodiscard]] std::vector<bool> marked(const Program& program, Asks asks) {
+  std::vector<bool> marks(program.conds.size(), false);   // parts come before the whole
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const Cond& cond = program.conds[i];
+    marks[i] = asks(cond) || std::any_of(cond.children.begin(), cond.children.end(), [&](CondId part) { return marks[index(part)]; });
+  }
+  return marks;
 }
 
 /// The parts that must all hold: those of an `and`, else the condition itself.

@@ -141,11 +141,11 @@ class Lowering {
     cond_of_ = {};
     place_of_.resize(model_.templates.size(), kNoPlace);
     program_.rules.reserve(model_.rules.size() + model_.priority.size());
-    for (std::uint32_t level = 0; level < program_.levels.size(); ++level) {
-      for (std::size_t i = 0; i < model_.rules.size(); ++i) {
-        if (model_[model_.rules[i].tmpl].level == level) program_.rules.push_back(lower_rule(model_.rules[i], conditions[i], group_of));
-      }
-    }
+    std::vector<std::uint32_t> order(model_.rules.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto level_of = [&](std::uint32_t rule) { return model_[model_.rules[rule].tmpl].level; };
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return level_of(a) < level_of(b); });
+    for (const std::uint32_t i : order) program_.rules.push_back(lower_rule(model_.rules[i], conditions[i], group_of));
   }
 
   Rule lower_rule(const model::Rule& from, CondId condition, const std::vector<std::uint32_t>& group_of) {

@@ -86,11 +86,7 @@ std::vector<Alternatives> alternatives(const Program& program, std::span<const C
     for (const CellId satellite : program[facts[i]].satellites) found[i].push_back({{satellite, Term::kHigh, false}});
   }
   const auto asks = [&](const Cond& cond) { return !has_parts(cond.op) && place_of.contains(cond.cell); };
-  std::vector<bool> reads(program.conds.size(), false);  // children come before their parents
-  for (std::size_t i = 0; i < program.conds.size(); ++i) {
-    const Cond& cond = program.conds[i];
-    reads[i] = asks(cond) || std::any_of(cond.children.begin(), cond.children.end(), [&](CondId child) { return reads[index(child)]; });
-  }
+  const std::vector<bool> reads = marked(program, asks);
   for (const Rule& rule : program.rules) {
     if (!reads[index(rule.condition)]) continue;
     const std::vector<Demand> all = demands(program, rule.condition);

@@ -215,14 +215,7 @@ void append_names(std::string& out, const Program& program, std::string_view wor
 
 /// By condition: whether it asks for the cell.
 std::vector<bool> mentions(const Program& program, std::string_view cell) {
-  std::vector<bool> found(program.conds.size(), false);
-  for (std::size_t i = 0; i < program.conds.size(); ++i) {
-    const Cond& cond = program.conds[i];
-    found[i] = has_parts(cond.op) ? std::any_of(cond.children.begin(), cond.children.end(),
-                                                [&](CondId part) { return found[index(part)]; })
-                                  : program[cond.cell].name == cell;
-  }
-  return found;
+  return marked(program, [&](const Cond& cond) { return !has_parts(cond.op) && program[cond.cell].name == cell; });
 }
 
 bool writes(const Program& program, const Rule& rule, std::string_view cell) {

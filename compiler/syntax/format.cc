@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/consumers.h"
+#include "compiler/source/encoding.h"
 #include "compiler/syntax/format_lines.h"
 #include "compiler/syntax/scan.h"
 #include "compiler/syntax/syntax.h"
@@ -58,7 +59,9 @@ bool is_joining_sign(TokenKind before, TokenKind sign) {
 class Formatter {
  public:
   Formatter(const source::Sources& sources, std::vector<Token> comments, std::vector<Token> tokens)
-      : sources_(sources), comments_(std::move(comments)), tokens_(std::move(tokens)) {}
+      : sources_(sources), comments_(std::move(comments)), tokens_(std::move(tokens)) {
+    if (sources_.bytes(tokens_.front().span.file).starts_with("\xEF\xBB\xBF")) counted_to_ = 3;   // a byte order mark
+  }
 
   std::vector<Line> run() {
     for (at_ = 0; at_ < tokens_.size(); ++at_) {
@@ -76,7 +79,7 @@ class Formatter {
   [[nodiscard]] const Token& token(std::size_t back = 0) const { return tokens_[at_ - back]; }
   [[nodiscard]] TokenKind last() const { return at_ == 0 ? T::kEnd : token(1).kind; }
   [[nodiscard]] bool breaks_between(std::uint32_t from, std::uint32_t to, std::size_t lines = 1) const;
-  [[nodiscard]] std::uint32_t column(const Token& token) const;
+  [[nodiscard]] std::uint32_t column(const Token& token);
   [[nodiscard]] std::string_view comment_text(const Token& comment) const;
 
   void enter_statement();
@@ -90,7 +93,7 @@ class Formatter {
   [[nodiscard]] bool must_stay() const;
   [[nodiscard]] std::uint32_t indent() const;
   [[nodiscard]] Family family() const;
-  struct Slot { std::uint16_t number, gap, farthest = 0xFFFF; };
+  struct Slot { std::uint32_t number; std::uint16_t gap, farthest = 0xFFFF; };
   [[nodiscard]] Slot slot() const;
   [[nodiscard]] bool table_on_one_line() const;
 
@@ -101,6 +104,7 @@ class Formatter {
   std::size_t at_ = 0;
   std::size_t next_comment_ = 0;
   std::uint32_t last_end_ = 0;        // of the token or comment before
+  std::uint32_t counted_to_ = 0, column_ = 0;   // where `column` was asked for last
   TokenKind statement_ = T::kEnd;
   std::uint32_t braces_ = 0, brackets_ = 0;
   bool in_clause_ = false;            // behind `when`, `while` or `then` of a rule
@@ -115,8 +119,14 @@ bool Formatter::breaks_between(std::uint32_t from, std::uint32_t to, std::size_t
   return static_cast<std::size_t>(std::count(gap.begin(), gap.end(), '\n')) >= lines;
 }
 
-std::uint32_t Formatter::column(const Token& token) const {
-  return sources_.locate(token.span.file, token.span.begin).column - 1;
+// Tokens and comments are asked for in their order. To count each from the beginning of its line would cost too much in long lines.
+std::uint32_t Formatter::column(const Token& token) {
+  const std::string_view passed = sources_.bytes(token.span.file).substr(counted_to_, token.span.begin - counted_to_);
+  const std::size_t line_break = passed.rfind('\n');
+  if (line_break != std::string_view::npos) column_ = 0;
+  column_ += static_cast<std::uint32_t>(source::code_points(passed.substr(line_break + 1)));
+  counted_to_ = token.span.begin;
+  return column_;
 }
 
 std::string_view Formatter::comment_text(const Token& comment) const {
@@ -312,7 +322,7 @@ Formatter::Slot Formatter::slot() const {
       return kind == T::kBy ? Slot{2, 2} : kind == T::kAt ? Slot{3, 2} : kind == T::kThrough ? Slot{4, 2} : Slot{0, 0};
     case Family::kTable:
       if (kind != T::kIdentifier) break;
-      return {static_cast<std::uint16_t>(lines_.back().cells.back().slot + 1), 2};
+      return {lines_.back().cells.back().slot + 1, 2};
     case Family::kFuzzyRule:
       return kind == T::kArrow ? Slot{1, 1, kFarthestArrow} : Slot{0, 0};
     case Family::kNone: break;

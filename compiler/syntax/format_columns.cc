@@ -18,7 +18,7 @@ struct LaidOut {
   std::uint32_t width = 0;
   std::size_t next = 0;   // the cell to be placed
 
-  [[nodiscard]] const Cell* cell(std::uint16_t slot) const {
+  [[nodiscard]] const Cell* cell(std::uint32_t slot) const {
     return next < line->cells.size() && line->cells[next].slot == slot ? &line->cells[next] : nullptr;
   }
   void place(std::uint32_t column) {
@@ -63,29 +63,32 @@ std::uint32_t column_for(const Wish& wish, std::uint32_t column) {
   return fits ? column : wish.width + wish.gap;
 }
 
-// All cells of a block that have `slot`.
-void lay_out_column(std::span<LaidOut> block, std::uint16_t slot) {
+// All cells of these rows that have `slot`.
+void lay_out_column(std::span<LaidOut* const> rows, std::uint32_t slot) {
   std::vector<Wish> wishes;
-  for (const LaidOut& row : block) {
-    if (const Cell* cell = row.cell(slot)) wishes.push_back({row.width, cell->source_column, cell->gap, 1, cell->farthest});
+  for (const LaidOut* row : rows) {
+    if (const Cell* cell = row->cell(slot)) wishes.push_back({row->width, cell->source_column, cell->gap, 1, cell->farthest});
   }
   const std::uint32_t column = wishes.size() > 1 ? common_column(wishes, kWidestGap) : 0;
   std::size_t next = 0;
-  for (LaidOut& row : block) {
-    if (row.cell(slot) == nullptr) continue;
-    row.place(column_for(wishes[next++], column));
+  for (LaidOut* row : rows) {
+    if (row->cell(slot) == nullptr) continue;
+    row->place(column_for(wishes[next++], column));
   }
 }
 
 void lay_out(std::span<LaidOut> block) {
-  std::uint16_t last_slot = 0;
+  std::vector<LaidOut*> open;   // with cells to be placed: one long row must not cost as much as if all were so long
   for (LaidOut& row : block) {
     row.text.assign(row.line->indent, ' ');
     row.width = row.line->indent;
     if (row.cell(0) != nullptr) row.place(row.width);
-    if (!row.line->cells.empty()) last_slot = std::max(last_slot, row.line->cells.back().slot);
+    if (row.next < row.line->cells.size()) open.push_back(&row);
   }
-  for (std::uint16_t slot = 1; slot <= last_slot; ++slot) lay_out_column(block, slot);
+  for (std::uint32_t slot = 1; !open.empty(); ++slot) {
+    lay_out_column(open, slot);
+    std::erase_if(open, [](const LaidOut* row) { return row->next == row->line->cells.size(); });
+  }
 }
 
 // Lays out the comments at the ends of a block's lines. A comment that continues the one above stands in the same column.

@@ -18,7 +18,7 @@ enum class Family : std::uint8_t {
 struct Cell {
   std::string text;
   std::uint32_t source_column = 0;   ///< where it began in the source, in characters
-  std::uint16_t slot = 0;            ///< which column of its family; the first cell has slot 0
+  std::uint32_t slot = 0;            ///< which column of its family; the first cell has slot 0
   std::uint16_t gap = 1;             ///< blanks before it unless something else decides
   std::uint16_t farthest = 0xFFFF;   ///< a line that is longer than this before the cell is not aligned
 };

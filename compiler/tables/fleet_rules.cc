@@ -44,8 +44,9 @@ void FleetRules::find_groups() {
   }
 }
 
-std::vector<I> FleetRules::literals(std::uint32_t rule) const {
-  return {t_.conditions.begin() + t_.rules[rule].conditions, t_.conditions.begin() + t_.rules[rule + 1].conditions};
+std::span<const I> FleetRules::literals(std::uint32_t rule) const {
+  const std::uint32_t begin = t_.rules[rule].conditions;
+  return std::span(t_.conditions).subspan(begin, t_.rules[rule + 1].conditions - begin);
 }
 
 bool FleetRules::compatible(std::uint32_t a, std::uint32_t b) const {
@@ -108,7 +109,8 @@ bool FleetRules::disturbed(std::uint32_t rule) const {
 }
 
 void FleetRules::weigh(std::uint32_t rule, std::vector<bool>& facts) const {
-  std::vector<I> open = literals(rule);
+  const std::span<const I> all = literals(rule);
+  std::vector<I> open(all.begin(), all.end());
   while (!open.empty()) {
     const I l = open.back();
     open.pop_back();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "compiler/program/program.h"
@@ -29,7 +30,7 @@ class FleetRules {
   /// Whether the rules of its level can change what its condition reads, timers aside.
   [[nodiscard]] bool disturbed(std::uint32_t rule) const;
   /// The literals of the condition.
-  [[nodiscard]] std::vector<I> literals(std::uint32_t rule) const;
+  [[nodiscard]] std::span<const I> literals(std::uint32_t rule) const;
   [[nodiscard]] const std::vector<I>& children(std::uint32_t node) const { return children_[node]; }
   [[nodiscard]] bool is_and(std::uint32_t node) const { return t_.nodes[node].need == children_[node].size(); }
   /// Groups of satellites of which at most one is high at any time.

@@ -127,9 +127,10 @@ void FleetTruth::count_uses(std::uint32_t begin, std::uint32_t end) {
   }
 }
 
-std::vector<I> FleetTruth::ordered(std::vector<I> literals) const {
-  std::stable_sort(literals.begin(), literals.end(), [&](I a, I b) { return uses(a) > uses(b); });
-  return literals;
+std::vector<I> FleetTruth::ordered(std::span<const I> literals) const {
+  std::vector<I> sorted(literals.begin(), literals.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [&](I a, I b) { return uses(a) > uses(b); });
+  return sorted;
 }
 
 std::size_t FleetTruth::uses(I literal) const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -58,7 +59,7 @@ class FleetTruth {
   Ref cell_term(program::CellId cell, program::Term term);
   Ref atom(I a);
   Ref node(std::uint32_t n);
-  [[nodiscard]] std::vector<I> ordered(std::vector<I> literals) const;
+  [[nodiscard]] std::vector<I> ordered(std::span<const I> literals) const;
   [[nodiscard]] std::size_t uses(I literal) const;
 
   const program::Program& p_;

@@ -106,7 +106,7 @@ struct OnChain { Spot at; double heading_rad = 0.0; };
   return part;
 }
 
-/// The same chain with its corners rounded to arcs, as far as its pieces have room.
+/// The same chain (at least one point, and no two equal neighbours) with its corners rounded to arcs, as far as its pieces have room.
 [[nodiscard]] inline std::vector<Spot> rounded(const std::vector<Spot>& chain, double bend_radius_m) {
   constexpr double kArcStep = kPi / 12.0;
   std::vector<Spot> out{chain.front()};

@@ -90,6 +90,27 @@ TEST_F(Reporting, looks_for_no_nearer_name_once_nothing_more_is_shown) {
   EXPECT_FALSE(diagnostics.nearest("Gat", names));
 }
 
+TEST_F(Reporting, knows_names_by_what_has_them_and_passes_over_empty_ones) {
+  struct Named { std::string name; bool meant; };
+  const std::vector<Named> all{{"Gate", false}, {"Gates", true}};
+  EXPECT_EQ(with({}).nearest("Gat", all, &Named::name), "Gate");
+  EXPECT_EQ(with({}).nearest("Gat", all, [](const Named& one) { return one.meant ? std::string_view(one.name) : std::string_view(); }), "Gates");
+}
+
+TEST_F(Reporting, is_full_for_warnings_that_are_off_and_after_the_last_that_is_shown) {
+  EXPECT_FALSE(with({}).full(Kind::kConfusable));
+  EXPECT_TRUE(with({"no-confusable"}).full(Kind::kConfusable));
+  for (const bool raised : {false, true}) {
+    auto diagnostics = raised ? with({"error=confusable"}) : with({});
+    for (std::uint32_t i = 0; i <= Diagnostics::kMaxErrors; ++i) {
+      EXPECT_FALSE(diagnostics.full(Kind::kConfusable));
+      diagnostics.report(Kind::kConfusable, at(i, i + 1), {"A", "B", "1", ""});
+    }
+    EXPECT_TRUE(diagnostics.full(Kind::kConfusable));
+    EXPECT_EQ(heard_.all.back().kind, Kind::kTooManyMessages);
+  }
+}
+
 TEST_F(Reporting, shows_warnings_by_their_options) {
   const auto severity = [this](std::initializer_list<std::string_view> options) {
     heard_.all.clear();

@@ -71,6 +71,19 @@ TEST(Format, indents_comments_as_what_follows_them) {
             "    # last\n}\n");
 }
 
+TEST(Format, lays_out_more_columns_than_16_bits_can_number) {
+  std::string head = "      ", line = " a:";
+  for (int i = 0; i < 65'600; ++i) head += " a", line += " bcd";
+  const std::string once = formatted("table f(A, A) -> A {\n" + head + "\n" + line + "\n}\n");
+  EXPECT_EQ(formatted(once), once);
+  EXPECT_TRUE(once.ends_with("  bcd  bcd  bcd\n}\n")) << once.substr(once.size() - 40);
+}
+
+TEST(Format, counts_columns_in_characters_on_a_line_with_a_comment_before) {
+  EXPECT_EQ(formatted("# \xC3\xA4\nfact A    exclusive  # \xC3\xA4\nfact Bcd  exclusive  # \xC3\xB6\n"),
+            "# \xC3\xA4\nfact A    exclusive  # \xC3\xA4\nfact Bcd  exclusive  # \xC3\xB6\n");
+}
+
 TEST(Format, keeps_line_breaks_within_a_statement) {
   EXPECT_EQ(formatted("route R on M by C:\nA -> B\n-> C\nrule r at l\nwhen A and\nB\nthen +C,\n-D\n"),
             "route R on M by C:\n    A -> B\n    -> C\nrule r at l\n    when A and\n        B\n    then +C,\n        -D\n");
