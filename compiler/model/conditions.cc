@@ -42,9 +42,9 @@ namespace {
 
 std::optional<syntax::Term> term_of(std::string_view word) {
   if (word.empty()) return syntax::Term::kHigh;
-  const auto found = std::find(syntax::kTermWords.begin(), syntax::kTermWords.end(), word);
-  if (found == syntax::kTermWords.end()) return std::nullopt;
-  return static_cast<syntax::Term>(found - syntax::kTermWords.begin());
+  const auto found = std::find(kTermWords.begin(), kTermWords.end(), word);
+  if (found == kTermWords.end()) return std::nullopt;
+  return static_cast<syntax::Term>(found - kTermWords.begin());
 }
 
 Cond::Op event_of(syntax::Cond::Kind kind) {
@@ -92,7 +92,7 @@ void Conditions::report_term(const syntax::Cond& cond, std::uint32_t ref) {
   auto message = draft_.diagnostics.report(Kind::kUnknownTerm, cond.term.span, {cond.term.text});
   const std::string member = references_.named_member(ref, cond.term.text);
   if (member.empty()) {
-    message.suggest(diagnostics::closest(cond.term.text, syntax::kTermWords));
+    message.suggest(diagnostics::closest(cond.term.text, kTermWords));
     return;
   }
   const std::string asked = fmt::format("{}{}{}", cond.negated ? "not " : "", cond.sat ? "sat " : "", member);

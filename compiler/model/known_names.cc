@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace kb::model {
 namespace {
-
-constexpr std::array<std::string_view, 3> kKinds{"fact", "satellite", "strategy"};
 
 std::string written(const FiniteSet& set) { return fmt::format("{{ {} }}", fmt::join(set.members, ", ")); }
 
@@ -44,7 +41,7 @@ void add_cells(const Model& model, std::vector<KnownName>& out) {
   std::vector<bool> told(model.cells.size(), false);
   for (const Group& group : model.groups) {
     const FiniteSet* const members = group.dimensions.size() == 1 ? &model.sets[index(group.dimensions.front())] : nullptr;
-    out.push_back({kKinds[static_cast<std::size_t>(group.kind)], group.name, group.declared, dimensions(model, group) + (!group.cells.empty() && model[group.cells.front()].output ? " output" : ""), members});
+    out.push_back({word(group.kind), group.name, group.declared, dimensions(model, group) + (!group.cells.empty() && model[group.cells.front()].output ? " output" : ""), members});
     for (const CellId cell : group.cells) told[index(cell)] = true;
   }
   for (const Row& row : model.rows) {
@@ -53,7 +50,7 @@ void add_cells(const Model& model, std::vector<KnownName>& out) {
   }
   for (std::size_t i = 0; i < model.cells.size(); ++i) {
     const Cell& cell = model.cells[i];
-    if (!told[i] && !cell.name.starts_with("sat ")) out.push_back({kKinds[static_cast<std::size_t>(cell.kind)], cell.name, cell.declared, output(cell)});
+    if (!told[i] && !cell.name.starts_with("sat ")) out.push_back({word(cell.kind), cell.name, cell.declared, output(cell)});
   }
 }
 

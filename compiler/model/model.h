@@ -17,6 +17,7 @@
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/fuzzy/controller.h"
 #include "compiler/fuzzy/shape.h"
+#include "compiler/source/kinds.h"
 #include "compiler/source/source.h"
 #include "compiler/source/texts.h"
 #include "compiler/syntax/tree.h"
@@ -36,7 +37,8 @@ enum class KeptId : std::uint32_t {};
 template <class Id>
 [[nodiscard]] constexpr std::size_t index(Id id) { return static_cast<std::size_t>(id); }
 
-enum class CellKind : std::uint8_t { kFact, kSatellite, kStrategy };
+using kb::CellKind;
+using kb::Idle;
 
 /// A cell. Names: `Line`, `sat Line`, `In.N` (one index), `Cross[right,mark]` (two or more), `Route1.1:LM5>LM2` (a row).
 struct Cell {
@@ -208,7 +210,7 @@ struct PlacedShape { fuzzy::Shape shape; std::string text; };
 
 /// A part of what defines a fact. Parts stand before the whole.
 struct Percept {
-  enum class Op : std::uint8_t { kFits, kReads, kFact, kNot, kAnd, kOr };
+  using Op = PerceptOp;
   Op op = Op::kAnd;
   std::uint32_t reading = 0;         ///< kFits, kReads
   std::uint32_t shape = 0;           ///< kFits: index into `Model::placed_shapes`
@@ -232,7 +234,6 @@ struct Precedence {
 
 /// What `set` sets.
 inline constexpr std::array<std::string_view, 5> kSettingNames{"event", "attention", "firing", "idle", "hold_limit"};
-enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
 struct Settings {
   double event = 0.75, attention = 0.25, firing = 0.5;
   Idle idle = Idle::kStop;

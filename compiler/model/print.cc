@@ -9,24 +9,6 @@
 namespace kb::model {
 namespace {
 
-std::string_view word(CellKind kind) {
-  switch (kind) {
-    case CellKind::kFact: return "fact";
-    case CellKind::kSatellite: return "satellite";
-    case CellKind::kStrategy: return "strategy";
-  }
-  return "";
-}
-
-std::string_view word(syntax::Term term) {
-  switch (term) {
-    case syntax::Term::kLow: return "low";
-    case syntax::Term::kZero: return "zero";
-    case syntax::Term::kHigh: return "high";
-  }
-  return "";
-}
-
 class Printer {
  public:
   Printer(const Model& model, const source::Sources& sources) : model_(model), sources_(sources) {}

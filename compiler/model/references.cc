@@ -173,7 +173,7 @@ void References::report_unknown(const syntax::Name& name) {
         .note(Kind::kNameDeclaredHere, set.places[member->index], {name.text});
     return;
   }
-  if (name.text == "low" || name.text == "zero" || name.text == "high") {
+  if (std::ranges::find(kTermWords, name.text) != kTermWords.end()) {
     draft_.diagnostics.report(Kind::kUnknownName, name.span, {name.text}).note(Kind::kTermAlone, {}, {name.text});
     return;
   }

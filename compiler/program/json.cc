@@ -79,13 +79,7 @@ class Printer {
   void print_cell(const Cell& cell) {
     out_ += "{\"name\":";
     append_json(out_, cell.name);
-    out_ += ",\"kind\":";
-    switch (cell.kind) {
-      case CellKind::kFact: out_ += "\"fact\""; break;
-      case CellKind::kSatellite: out_ += "\"satellite\""; break;
-      case CellKind::kStrategy: out_ += "\"strategy\""; break;
-    }
-    out_ += ",\"initial\":";
+    out_.append(",\"kind\":\"").append(word(cell.kind)).append("\",\"initial\":");
     append_number(out_, cell.initial);
     if (cell.kind == CellKind::kFact) {
       out_ += ",\"event\":";

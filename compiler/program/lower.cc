@@ -13,24 +13,6 @@
 namespace kb::program {
 namespace {
 
-Term lower_term(syntax::Term term) {
-  switch (term) {
-    case syntax::Term::kLow: return Term::kLow;
-    case syntax::Term::kZero: return Term::kZero;
-    case syntax::Term::kHigh: return Term::kHigh;
-  }
-  return Term::kHigh;
-}
-
-CellKind lower_kind(model::CellKind kind) {
-  switch (kind) {
-    case model::CellKind::kFact: return CellKind::kFact;
-    case model::CellKind::kSatellite: return CellKind::kSatellite;
-    case model::CellKind::kStrategy: return CellKind::kStrategy;
-  }
-  return CellKind::kFact;
-}
-
 constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
 
 class Lowering {
@@ -72,7 +54,7 @@ class Lowering {
   Cell lower_cell(const model::Cell& from) {
     Cell made;
     made.name = from.name;
-    made.kind = lower_kind(from.kind);
+    made.kind = from.kind;
     made.initial = from.initial;
     made.command = from.command;
     made.keep = from.keep;
@@ -98,11 +80,7 @@ class Lowering {
     to.firing = from.firing;
     to.hold_limit_us = from.hold_limit_us;
     to.idle_strategy = cell(from.idle_strategy);
-    switch (from.idle) {
-      case model::Idle::kStop: to.idle = Idle::kStop; break;
-      case model::Idle::kHold: to.idle = Idle::kHold; break;
-      case model::Idle::kStrategy: to.idle = Idle::kStrategy; break;
-    }
+    to.idle = from.idle;
   }
 
   void lower_exclusive(const std::vector<model::CellId>& group) {
@@ -127,7 +105,7 @@ class Lowering {
       case model::Cond::Op::kEvent: known = pool_.event(cell(cond.cell)); break;
       case model::Cond::Op::kLost: known = pool_.lost(cell(cond.cell)); break;
       case model::Cond::Op::kSeen: known = pool_.seen(cell(cond.cell)); break;
-      case model::Cond::Op::kIs: known = pool_.is(cell(cond.cell), lower_term(cond.term)); break;
+      case model::Cond::Op::kIs: known = pool_.is(cell(cond.cell), cond.term); break;
     }
     return known;
   }
@@ -192,7 +170,7 @@ class Lowering {
 }  // namespace
 
 std::vector<CellId> cell_order(const model::Model& model) {
-  const auto number_of = [](model::CellKind kind) { return static_cast<std::size_t>(lower_kind(kind)); };
+  const auto number_of = [](CellKind kind) { return static_cast<std::size_t>(kind); };
   std::array<std::uint32_t, 4> next{};   // by kind
   for (const model::Cell& cell : model.cells) ++next[number_of(cell.kind) + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());

@@ -7,18 +7,6 @@
 namespace kb::program {
 namespace {
 
-Percept::Op lower_op(model::Percept::Op op) {
-  switch (op) {
-    case model::Percept::Op::kFits: return Percept::Op::kFits;
-    case model::Percept::Op::kReads: return Percept::Op::kReads;
-    case model::Percept::Op::kFact: return Percept::Op::kFact;
-    case model::Percept::Op::kNot: return Percept::Op::kNot;
-    case model::Percept::Op::kAnd: return Percept::Op::kAnd;
-    case model::Percept::Op::kOr: return Percept::Op::kOr;
-  }
-  return Percept::Op::kAnd;
-}
-
 Sensor lower_sensor(const model::Sensor& from) {
   Sensor made{from.name, from.text, from.array, from.low, from.high, from.unit, from.circular, from.noise,
               from.stale_s, 0.0, from.first, from.count, {}, from.declared};
@@ -33,7 +21,7 @@ Perception lower_perception(const model::Model& model, const std::vector<CellId>
   for (const model::Sensor& sensor : model.sensors) made.sensors.push_back(lower_sensor(sensor));
   for (const model::PlacedShape& shape : model.placed_shapes) made.prototypes.push_back({shape.shape, shape.text});
   for (const model::Percept& from : model.percepts) {
-    Percept percept{lower_op(from.op), from.reading, from.shape, from.text, CellId::kNone, {}};
+    Percept percept{from.op, from.reading, from.shape, from.text, CellId::kNone, {}};
     if (from.op == model::Percept::Op::kFact) percept.cell = cell_of[model::index(from.cell)];
     for (const model::PerceptId child : from.children) percept.children.push_back(PerceptId{static_cast<std::uint32_t>(child)});
     if (from.op == model::Percept::Op::kReads) {

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "compiler/fuzzy/shape.h"
+#include "compiler/source/kinds.h"
 #include "compiler/source/source.h"
 
 namespace kb::program {
 
 enum class CellId : std::uint32_t;
 enum class CondId : std::uint32_t;
-enum class Term : std::uint8_t;
 struct Program;
 
 enum class PerceptId : std::uint32_t {};
@@ -45,7 +45,7 @@ struct Prototype { fuzzy::Shape shape; std::string text; };
 
 /// A part of what defines a fact; parts stand before the whole.
 struct Percept {
-  enum class Op : std::uint8_t { kFits, kReads, kFact, kNot, kAnd, kOr };
+  using Op = PerceptOp;
   Op op = Op::kAnd;
   std::uint32_t reading = 0;          ///< kFits, kReads
   std::uint32_t prototype = 0;        ///< kFits

@@ -12,6 +12,7 @@
 
 #include "compiler/fuzzy/controller.h"
 #include "compiler/program/perception.h"
+#include "compiler/source/kinds.h"
 #include "compiler/source/source.h"
 #include "compiler/source/texts.h"
 
@@ -30,13 +31,9 @@ template <class Id>
   return static_cast<std::size_t>(id);
 }
 
-enum class CellKind : std::uint8_t { kFact, kSatellite, kStrategy };
-enum class Term : std::uint8_t { kLow, kZero, kHigh };
-/// `low`, `zero`, `high`.
-[[nodiscard]] constexpr std::string_view word(Term term) {
-  return term == Term::kHigh ? "high" : term == Term::kLow ? "low" : "zero";
-}
-enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
+using kb::CellKind;
+using kb::Idle;
+using kb::Term;
 enum class Mode : std::uint8_t { kWhen, kWhile };
 
 /// Cells are ordered: all facts, then all satellites, then all strategies.

@@ -2,7 +2,6 @@
 // tree is a value. All `text` fields are views into `source::Sources`, which must outlive the tree.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -10,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "compiler/source/kinds.h"
 #include "compiler/source/source.h"
 
 namespace kb::syntax {
@@ -70,9 +70,7 @@ struct Shape {
   std::vector<Argument> arguments;
 };
 
-enum class Term : std::uint8_t { kLow, kZero, kHigh };
-/// The words for them, in that order.
-inline constexpr std::array<std::string_view, 3> kTermWords{"low", "zero", "high"};
+using kb::Term;
 
 /// A condition. `and` and `or` are flat (two or more children, none of the same kind unless parenthesised).
 struct Cond {

@@ -31,10 +31,6 @@ std::optional<Labyrinth::End> Names::end(TomlTable& table, std::string_view key)
 }
 
 std::optional<program::CellId> Names::cell(TomlTable& table, std::string_view key, program::CellKind kind) const {
-  constexpr auto word = [](program::CellKind of) {
-    constexpr std::string_view kWords[] = {"fact", "satellite", "strategy"};   // in the order of CellKind
-    return kWords[static_cast<std::size_t>(of)];
-  };
   const auto name = table.text(key);
   if (!name) return std::nullopt;
   std::vector<std::string_view> candidates;

@@ -83,7 +83,7 @@ std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const 
     return std::nullopt;
   }
   if (program_[cell].kind != CellKind::kFact) {
-    report(Kind::kFactsNotAFact, line, mark, {shown, program_[cell].kind == CellKind::kStrategy ? "strategy" : "satellite"});
+    report(Kind::kFactsNotAFact, line, mark, {shown, word(program_[cell].kind)});
     return std::nullopt;
   }
   for (const program::Perceived& perceived : perception.perceived) {
