@@ -5,10 +5,11 @@
 //   modified  leaves where the path to the goal is free and does not meet the robot's own trail from the side on which
 //             the obstacle lay                                                         Filimonov and Filimonov, 2019
 //
-// `bug2` and `modified` leave only at a place nearer to the goal than every place where they met a wall before, so they meet walls only
-// finitely often. If they have gone once round without leaving, they too go to the nearest point of the loop, as bug1 does. If the path
-// to the goal is blocked there as well, there is none: `plight()` says so, and the robot stands. planners/bug.h has the same three
-// on a grid with exact walls; here, walls are what eight range finders have seen lately, and places are reckoned.
+// `bug2` and `modified` leave only at a place nearer to the goal than every place where they met a wall before. If they have gone once round
+// without leaving, they too go to the nearest point of the loop, as bug1 does. If the path to the goal is blocked there as well, there is
+// none: `plight()` says so, and the robot stands. planners/bug.h has the same three on a grid with exact walls; here, walls are what eight
+// range finders have seen lately, and places are reckoned. So a robot may lose a wall, or come to circle elsewhere than where it met it: see
+// note [loops that miss the place where they began]. It then tries with the other hand, and says that there is no way after the sixth time.
 // The wall is kept as one_wall.h says. Without range finders, odometry, any heading or a hall, it stops.
 #pragma once
 
@@ -47,6 +48,7 @@ class Bug {
     phase_ = Phase::kStraight;
     from_ = {};
     nearest_hit_m_ = kInfinity;
+    vain_ = 0;
     plight_ = Plight::kNone;
   }
 
@@ -94,13 +96,20 @@ class Bug {
     // An obstacle kept at the right hand is passed on the left.
     const float for_left = bearing < 0.0f ? room_right + 0.2f : room_right - 0.2f;   // the side towards the goal counts as 20 cm more room
     left_ = gains.side == Side::kLeft || (gains.side == Side::kBoth && room_left < for_left);
-    take_hand(Phase::kRound);
+    if (hall_.to_gate() < nearest_hit_m_ - 0.5f * kNearer_m) vain_ = 0;
+    else count_vain();
     nearest_hit_m_ = least(nearest_hit_m_, hall_.to_gate());
+    go_round();
+  }
+  void go_round() noexcept {
+    take_hand(Phase::kRound);
     met_ = nearest_ = hall_.at();
     met_at_m_ = nearest_at_m_ = hall_.travelled_m();
     nearest_m_ = kInfinity;
     far_m_ = 0.0f;
     aside_m_ = 0.0f;
+    mark_at_m_ = 0.5f * kLeastLoop_m;
+    any_lap_ = false;
     trail_.begin_wall(left_);
   }
 
@@ -128,18 +137,20 @@ class Bug {
     return !(points_.room(hall_.at(), bearing, kLaneHalf_m, reach) < reach);
   }
 
+  /// The robot tries from before to behind the nearest point, as far as reckoning may be off: where it once saw the way free, it may see
+  /// that only a little farther on now.
+  [[nodiscard]] bool leaves_nearest(float passed_m, float bearing) noexcept {
+    const bool there = hall_.distance_to(nearest_) < kSamePlace_m && (any_lap_ || passed_m > nearest_at_m_ - kLate_m);
+    const bool past = passed_m >= nearest_at_m_ + kLate_m;
+    if ((there || past) && lane_is_free(bearing, kLooks_m)) return true;
+    if (past) give_up();
+    return false;
+  }
+
   /// Whether the robot leaves the wall here. If it has gone once round, it goes on to the nearest point, or finds that there is no way.
   [[nodiscard]] bool leaves(float bearing) noexcept {
     const float passed = hall_.travelled_m() - met_at_m_;
-    if (phase_ == Phase::kBackToNearest) {
-      // The robot tries from before to behind the nearest point, as far as reckoning may be off: where it once saw the way free, it may see
-      // that only a little farther on now.
-      const bool there = hall_.distance_to(nearest_) < kSamePlace_m && passed > nearest_at_m_ - kLate_m;
-      const bool past = passed >= nearest_at_m_ + kLate_m;
-      if ((there || past) && lane_is_free(bearing, kLooks_m)) return true;
-      if (past) plight_ = Plight::kNoWay;
-      return false;
-    }
+    if (phase_ == Phase::kBackToNearest) return leaves_nearest(passed, bearing);
     far_m_ = greatest(far_m_, hall_.distance_to(met_));
     const bool free = lane_is_free(bearing, kLooks_m);
     if (free && hall_.to_gate() < nearest_m_) {
@@ -148,6 +159,7 @@ class Bug {
       nearest_at_m_ = passed;
     }
     if (far_m_ > 2.0f * kSamePlace_m && hall_.distance_to(met_) < kSamePlace_m) return once_round(passed);
+    if (circles(passed)) return once_more(passed - mark_at_m_);
     if (gains.kind == BugKind::kBug1 || !free || passed < kSamePlace_m) {
       aside_m_ = beside_line();
       return false;
@@ -162,7 +174,7 @@ class Bug {
   /// Takes the shorter way back to the nearest point from which the way to the goal was free; without one there is no way.
   [[nodiscard]] bool once_round(float loop_m) noexcept {
     if (!(nearest_m_ < nearest_hit_m_ + kNearer_m)) {
-      plight_ = Plight::kNoWay;
+      give_up();
       return false;
     }
     phase_ = Phase::kBackToNearest;
@@ -176,6 +188,48 @@ class Bug {
     return false;
   }
 
+  // note [loops that miss the place where they began]
+  // What the robot follows need not be the rim of one obstacle. It drives through a gap in one direction and takes it for closed in the other,
+  // and then circles for ever where it never met the wall. So a loop is closed too if the robot comes back to a mark in the same direction.
+  // The mark is set anew after 1 m, 2 m, 4 m... of wall, so it comes to lie in the loop, when the loop is shorter than the way to the mark
+  // (R. P. Brent, BIT 20, 1980). Such a loop does not say that there is no way: from the other side the gap may be open.
+
+  /// Whether the robot has come back to the mark. Sets the next one.
+  [[nodiscard]] bool circles(float passed_m) noexcept {
+    if (passed_m >= 2.0f * mark_at_m_) {
+      mark_ = hall_.at();
+      mark_at_m_ = passed_m;
+    }
+    return passed_m - mark_at_m_ > kLeastLoop_m && hall_.distance_to(mark_) < kSamePlace_m &&
+           magnitude(wrapped_angle(hall_.at().heading_rad - mark_.heading_rad)) < kSameWay_rad;
+  }
+
+  /// Goes round such a loop once more if the way to the goal was free somewhere on the wall, which may be there.
+  [[nodiscard]] bool once_more(float loop_m) noexcept {
+    if (!(nearest_m_ < nearest_hit_m_ + kNearer_m)) {
+      try_other_hand();
+      return false;
+    }
+    phase_ = Phase::kBackToNearest;
+    met_at_m_ = hall_.travelled_m();
+    nearest_at_m_ = loop_m;
+    any_lap_ = true;
+    return false;
+  }
+
+  void give_up() noexcept {
+    if (vain_ == 0 && !any_lap_) plight_ = Plight::kNoWay;
+    else try_other_hand();
+  }
+  void try_other_hand() noexcept {
+    count_vain();
+    left_ = !left_;
+    go_round();
+  }
+  void count_vain() noexcept {
+    if (++vain_ >= kMostInVain) plight_ = Plight::kNoWay;
+  }
+
   /// How far the robot is to the left of the straight line from where it set out to the goal.
   [[nodiscard]] float beside_line() const noexcept {
     const float x = hall_.gate().x_m - from_.x_m, y = hall_.gate().y_m - from_.y_m;
@@ -187,20 +241,24 @@ class Bug {
   static constexpr float kReach_m = 0.8f, kMeets_m = 0.14f, kLooks_m = 0.5f;
   static constexpr float kLaneHalf_m = 0.165f;   ///< the robot's radius and 45 mm: less than its distance from walls
   static constexpr float kSamePlace_m = 0.25f, kLate_m = 0.6f;   ///< reckoning may be off by as much after a loop
-  static constexpr float kNearer_m = 0.1f, kOnLine_m = 0.03f;
-  static constexpr float kBeside_rad = 40.0f * kRadPerDeg;
+  static constexpr float kNearer_m = 0.1f, kOnLine_m = 0.03f, kLeastLoop_m = 1.0f;
+  static constexpr float kBeside_rad = 40.0f * kRadPerDeg, kSameWay_rad = 45.0f * kRadPerDeg;
+  static constexpr std::uint8_t kMostInVain = 6;
   Hall hall_{};
   OneWall wall_{};
   NearPoints points_{};
   Trail trail_{};
-  Place from_{}, met_{}, nearest_{};
+  Place from_{}, met_{}, nearest_{}, mark_{};
   Phase phase_ = Phase::kStraight, then_ = Phase::kRound;
   Plight plight_ = Plight::kNone;
   float nearest_hit_m_ = 0.0f;                        ///< distance to the goal of the place nearest to it where a wall was met so far
   float met_at_m_ = 0.0f, far_m_ = 0.0f;              ///< distance driven when it met this wall; the farthest that it has been from that place since
   float nearest_m_ = 0.0f, nearest_at_m_ = 0.0f;      ///< the point of this wall nearest to the goal: its distance to the goal, and the way round to it
+  float mark_at_m_ = 0.0f;                            ///< how much of this wall the robot had followed at the mark
   float aside_m_ = 0.0f, turned_rad_ = 0.0f;
+  std::uint8_t vain_ = 0;                             ///< walls met no nearer to the goal than one before, and loops that told nothing
   bool left_ = false;
+  bool any_lap_ = false;                              ///< the way round to the nearest point is not known
 };
 
 }  // namespace mts

@@ -10,8 +10,8 @@
 
 namespace kb::sim {
 
-/// Whether a fuzzy controller has the inputs `bearing` (degrees) and `free[8]` and the outputs `turn` (degrees) and `speed`, and
-/// no other inputs except those that the control line fixes. Reports what is missing (KB1323).
+/// Whether a fuzzy controller has the inputs `bearing` (degrees, all of them) and `free[8]` (0 to 1) and the outputs `turn` (degrees) and
+/// `speed` (0 to 1), and no other inputs except those that the control line fixes. Reports what is missing (KB1323).
 [[nodiscard]] bool check_rules(const fuzzy::Controller& controller, const program::Control& control, diagnostics::Diagnostics& diagnostics);
 
 class HallRules {

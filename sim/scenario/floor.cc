@@ -37,7 +37,7 @@ HallBuild::Box read_box(TomlTable& table) {
   };
   const TomlTable::Pair from = corner("from"), to = corner("to");
   table.done();
-  return {std::min(from.x, to.x), std::min(from.y, to.y), std::max(from.x, to.x), std::max(from.y, to.y)};
+  return {std::min(from.x, to.x), std::min(from.y, to.y), std::max(from.x, to.x), std::max(from.y, to.y), table.span("to")};
 }
 
 }  // namespace

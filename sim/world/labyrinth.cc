@@ -54,12 +54,14 @@ bool Labyrinth::has_room(Spot spot, double radius_m) const {
   const auto at_wall = [&](const Picture::Wall& wall) { return nearest_on(wall.from, wall.to, spot).distance_m < radius_m; };
   const auto at_pillar = [&](const Pillar& pillar) { return distance(pillar.at, spot) < pillar.radius_m + radius_m; };
   const auto in_box = [&](const std::vector<Spot>& corners) {   // convex; corners in order, clockwise or counter-clockwise
-    int left = 0;
+    int left = 0, right = 0;   // a box that is but a wall has no inside
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Spot& corner = corners[i];
-      left += cross(corners[(i + 1) % corners.size()] - corner, spot - corner) > 0.0 ? 1 : 0;
+      const double side = cross(corners[(i + 1) % corners.size()] - corner, spot - corner);
+      left += side > 0.0 ? 1 : 0;
+      right += side < 0.0 ? 1 : 0;
     }
-    return left == 0 || left == static_cast<int>(corners.size());
+    return left == static_cast<int>(corners.size()) || right == static_cast<int>(corners.size());
   };
   return std::none_of(walls.begin(), walls.end(), at_wall) && std::none_of(pillars.begin(), pillars.end(), at_pillar) &&
          std::none_of(boxes.begin(), boxes.end(), in_box);

@@ -75,7 +75,10 @@ struct Crossing {
 /// How a hall is built and furnished, if not like the others. Metres of the floor. Places in it are given from the end that `road`
 /// names: `along` from its stop line into the hall, `aside` to the left of the road's middle.
 struct HallBuild {
-  struct Box { double from_along_m = 0.0, from_aside_m = 0.0, to_along_m = 0.0, to_aside_m = 0.0; };
+  struct Box {
+    double from_along_m = 0.0, from_aside_m = 0.0, to_along_m = 0.0, to_aside_m = 0.0;
+    source::Span span{};            ///< where it is written
+  };
   std::string road;                 ///< one of its ends: `LM2.E`
   std::optional<double> width_m;    ///< none: kHallWidth, times the floor's size
   bool pillars = true;              ///< it has a round pillar every 1.1 m, times the size

@@ -80,6 +80,23 @@ void read_roads(const model::Model& model, const model::Map& map, Labyrinth& out
   }
 }
 
+/// Reports a box that is none, or that is not between the walls of its hall.
+bool check_box(const std::string& hall, const HallBuild::Box& box, double long_m, double width_m, double size, Diagnostics& diagnostics) {
+  constexpr double kWritten = 0.005;   // m: places are told to a centimetre
+  const auto wrong = [&](std::string_view what, std::string wanted) {
+    diagnostics.report(Kind::kSimHallBox, box.span, {hall, what, std::move(wanted)});
+    return false;
+  };
+  const auto within = [&](double from, double to, double low, double high) { return from >= low - kWritten && to <= high + kWritten; };
+  const double door_m = size * kHallDoor, half_m = 0.5 * width_m;
+  if (!(box.to_along_m > box.from_along_m) && !(box.to_aside_m > box.from_aside_m)) return wrong("is a point", "another corner");
+  if (!within(box.from_along_m, box.to_along_m, door_m, long_m - door_m)) {
+    return wrong("is not between its doors", fmt::format("from {:.2f} to {:.2f} m along it", door_m, long_m - door_m));
+  }
+  if (within(box.from_aside_m, box.to_aside_m, -half_m, half_m)) return true;
+  return wrong("is not between its walls", fmt::format("from {:.2f} to {:.2f} m across it", -half_m, half_m));
+}
+
 bool furnish(Labyrinth& labyrinth, const std::vector<HallBuild>& halls, Diagnostics& diagnostics) {
   bool good = true;
   std::map<RoadId, source::Span> described;
@@ -100,10 +117,11 @@ bool furnish(Labyrinth& labyrinth, const std::vector<HallBuild>& halls, Diagnost
     road.width_m = hall.width_m.value_or(road.width_m);
     road.pillars = hall.pillars;
     road.boxes = hall.boxes;
-    if (end->arm->forward) continue;
     const double long_m = road.ends_m - road.begins_m;
+    for (const HallBuild::Box& box : road.boxes) good = check_box(hall.road, box, long_m, road.width_m, labyrinth.size, diagnostics) && good;
+    if (end->arm->forward) continue;
     for (HallBuild::Box& box : road.boxes) {
-      box = {long_m - box.to_along_m, -box.to_aside_m, long_m - box.from_along_m, -box.from_aside_m};
+      box = {long_m - box.to_along_m, -box.to_aside_m, long_m - box.from_along_m, -box.from_aside_m, box.span};
     }
   }
   return good;

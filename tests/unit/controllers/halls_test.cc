@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <waymark/controllers/any_controller.h>
+#include "tests/unit/controllers/drives.h"
 
 namespace mts {
 namespace {
@@ -134,6 +135,58 @@ TEST(AnyController, WhoStandsSinceItSeesNothingIsNotInVain) {
         EXPECT_EQ(controller.plight(), Plight::kNone) << static_cast<int>(id) << door << ranges;
       }
     }
+  }
+}
+
+/// Six boxes between which a bug passes some gaps in one direction only.
+plant::Floor crowded_hall() {
+  plant::Floor floor;
+  for (const double side : {1.05, -1.05}) {
+    const double door = side > 0.0 ? 0.3 : -0.3;
+    floor.add_walls({{-1.0, door}, {0.5, door}, {0.5, side}, {5.6, side}, {5.6, door}, {7.0, door}});
+  }
+  floor.add_box({2.75, -1.05}, {2.85, -0.45});
+  floor.add_box({1.45, 0.45}, {2.20, 0.60});
+  floor.add_box({1.85, -0.10}, {2.55, 0.50});
+  floor.add_box({4.05, -1.05}, {4.75, -0.75});
+  floor.add_box({3.40, 0.00}, {3.75, 0.60});
+  floor.add_box({3.20, -0.85}, {3.35, -0.20});
+  return floor;
+}
+
+// It used to circle for ever between two of the boxes, away from where it had met them.
+TEST(Bug, LeavesALoopThatMissesThePlaceWhereItBegan) {
+  for (const int level : {0, 1}) {
+    plant::Plant robot(crowded_hall(), plant::noise_of_level(level), static_cast<std::uint64_t>(level) + 1);
+    robot.place(0.0, 0.0, 0.0);
+    AnyController controller;
+    controller.choose(ControllerId::kBug);
+    controller.start(hall_of(6.1f), robot.sense());
+    const double took_s = plant::drive_until(controller, robot, 0.02, 600.0, [&](double) { return controller.lost(); });
+    EXPECT_LT(took_s, 590.0) << level;
+    EXPECT_EQ(controller.plight(), Plight::kNone) << level;
+    EXPECT_GT(robot.x, 6.0) << level;
+    EXPECT_FALSE(robot.touched) << level;
+  }
+}
+
+/// A robot that is shut up between four walls, which it may have met anywhere.
+TEST(Bug, GivesUpInACell) {
+  for (const bool right : {false, true}) {
+    plant::Floor floor;
+    floor.add_walls({{1.5, -0.6}, {3.0, -0.6}, {3.0, 0.6}, {1.5, 0.6}, {1.5, -0.6}});
+    plant::Plant robot(floor, plant::noise_of_level(1), 2);
+    robot.place(2.0, 0.0, 0.0);
+    Task task = hall_of(6.1f);
+    task.in.x_m = -2.0f;
+    task.out.x_m = 4.1f;
+    AnyController controller;
+    controller.choose(ControllerId::kBug);
+    ASSERT_EQ(controller.set("side", right ? 1.0f : 2.0f), Setting::kSet);
+    controller.start(task, robot.sense());
+    const double took_s = plant::drive_until(controller, robot, 0.02, 400.0, [&](double) { return controller.lost(); });
+    EXPECT_LT(took_s, 390.0);
+    EXPECT_EQ(controller.plight(), Plight::kNoWay);
   }
 }
 

@@ -116,15 +116,16 @@ TEST(Halls, ASealedHallIsFoundOutAndTheDetourTaken) {
   }
 }
 
-TEST(Halls, WithoutADetourItStandsAndSaysSo) {
+TEST(Halls, WithoutADetourItStandsAndSaysSoAndTriesAgain) {
   const auto made = Laboratory::of_text(
       "import std.navigation\nimport std.hall\nmap M {\n landmark A at (0, 0)\n landmark B at (6, 0)\n landmark C at (-2.5, 0)\n"
       " road A.E -- B.W by open\n road C.E -- A.W\n}\ncommand Go\nroute R on M by Go: A -> B\n",
       {std::nullopt, nullptr, {1.0, {}, {{"B.W", 2.4, false, {{2.0, -1.2, 2.1, 1.2}}, {}}}}});
   Recording recording;
-  const Summary summary = made->drive(made->scenario("limit = 120"), &recording);
+  const Summary summary = made->drive(made->scenario("limit = 80"), &recording);
   EXPECT_TRUE(sees(recording, "NoWay"));
   EXPECT_EQ(describe(summary), "stopped: Help.blocked");
+  EXPECT_EQ(describe(made->drive(made->scenario("limit = 100"))), "still driving when the time was up") << "it tries again after 30 s";
 }
 
 TEST(Halls, CratesThatAppearWhileItDrivesAreGoneRound) {
