@@ -76,12 +76,14 @@ bool check_walls(const Labyrinth& labyrinth, const Nearby& walls, const Road& ro
 }
 
 /// Reports a road that leads over blocked cells of the background. These have walls only at their borders, so a road that lies wholly among
-/// them comes near no wall.
+/// them comes near no wall. What stands in a hall is gone round; its doors have to be free.
 bool check_free(const Labyrinth& labyrinth, const Road& road, const std::vector<Spot>& chain, const planners::Grid& background, Diagnostics& diagnostics) {
-  const double long_m = length_of(chain);
+  const double long_m = length_of(chain), door_m = labyrinth.size * kHallDoor;
   const int steps = static_cast<int>(long_m / background.cell_m()) + 1;
   for (int i = 0; i <= steps; ++i) {
-    const Spot at = point_on(chain, long_m * i / steps).at;
+    const double along_m = long_m * i / steps;
+    if (road.kind == Picture::Kind::kOpen && along_m > door_m && along_m < long_m - door_m) continue;
+    const Spot at = point_on(chain, along_m).at;
     const planners::Point there{at.x_m, at.y_m};
     if (!background.contains(there) || !background.blocked(background.cell_at(there))) continue;
     diagnostics.report(Kind::kSimRoadWalled, road.span, {road.name, place_text(labyrinth, at)});
