@@ -79,11 +79,11 @@ std::vector<Controller> collect(const CppInput& in) {
   return controllers;
 }
 
-/// A word as the knowledge base has it: libraries of controllers number their words otherwise.
-void emit_word_name(const Controller::Field& field, std::string& out) {
-  fmt::format_to(Out(out), "  [[nodiscard]] friend constexpr const char* name({0} word) noexcept {{\n    constexpr const char* kWords[] = {{\"\"", field.type);
+/// A word as the knowledge base has it: libraries of controllers number their words otherwise. Not in the struct, whose fields may have any name.
+void emit_word_name(const Controller& c, const Controller::Field& field, std::string& out) {
+  fmt::format_to(Out(out), "[[nodiscard]] constexpr const char* name({0}::{1} word) noexcept {{\n  constexpr const char* kWords[] = {{\"\"", c.type, field.type);
   for (const std::string& word : field.words) fmt::format_to(Out(out), ", \"{}\"", word);
-  out += "};\n    return kWords[static_cast<unsigned>(word)];\n  }\n";
+  out += "};\n  return kWords[static_cast<unsigned>(word)];\n}\n";
 }
 
 void emit_structs(const std::vector<Controller>& controllers, std::string& out) {
@@ -95,12 +95,15 @@ void emit_structs(const std::vector<Controller>& controllers, std::string& out) 
       if (!field.is_number) {
         fmt::format_to(Out(out), "  enum class {} : std::uint8_t {{ unset, {} }};\n  {} {} = {}::unset;\n", field.type,
                        fmt::join(field.enumerators, ", "), field.type, field.name, field.type);
-        emit_word_name(field, out);
       } else {
         fmt::format_to(Out(out), "  float {} = 0.0f;{}\n", field.name, field.unit.empty() ? "" : "  ///< " + field.unit);
       }
     }
-    out += "};\n\n";
+    out += "};\n";
+    for (const auto& field : c.fields) {
+      if (!field.is_number) emit_word_name(c, field, out);
+    }
+    out += '\n';
   }
 }
 
