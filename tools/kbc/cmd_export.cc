@@ -1,26 +1,85 @@
-// kbc export: fuzzy controllers for other programs.
+// kbc export: fuzzy controllers and maps for other programs.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/kbc/fll/fll.h"
 #include "tools/kbc/fuzzy_support.h"
+#include "tools/kbc/layout/layout.h"
 
 namespace kb::cli {
 namespace {
 
 struct ExportOptions {
-  std::string format, file, controller, output;
+  std::string format, file, name, output;
+  std::string vehicle = "robot", timestamp = "1970-01-01T00:00:00Z";
 };
+
+std::optional<std::string> export_fuzzy(const ExportOptions& options, const driver::Compilation& compiled, diagnostics::Diagnostics& diagnostics) {
+  const fuzzy::Controller* controller = find_fuzzy(compiled.program.fuzzy, options.file, options.name, diagnostics);
+  return controller == nullptr ? std::nullopt : fll::export_engine(*controller, diagnostics);
+}
+
+/// The map called `name`, or the only one if `name` is empty; null (reported) if there is none, or more than one.
+const model::Map* find_map(const std::vector<model::Map>& all, const ExportOptions& options, diagnostics::Diagnostics& diagnostics) {
+  std::vector<std::string_view> names;
+  for (const model::Map& map : all) {
+    if (map.name == options.name || (options.name.empty() && all.size() == 1)) return &map;
+    names.push_back(map.name);
+  }
+  std::string which = options.name.empty() ? "map" : "map `" + options.name + "`";
+  if (options.name.empty() && !all.empty()) which += fmt::format(" that is the only one; name one of its {}: {}", all.size(), fmt::join(names, ", "));
+  diagnostics.report(diagnostics::Kind::kGraphNothing, {}, {options.file, which}).suggest(diagnostics::closest(options.name, names));
+  return nullptr;
+}
+
+/// The map as places and ways, each named by the landmark and the exit by which it leaves, as orders of a master name roads. Nothing (reported)
+/// if its relations are the user's own and do not say where things lie.
+std::optional<layout::Layout> layout_of(const model::Model& model, const model::Map& map, const ExportOptions& options, diagnostics::Diagnostics& diagnostics) {
+  layout::Layout made{.name = std::filesystem::path(options.file).stem().string(), .places = {}, .ways = {}};
+  bool whole = true;
+  for (const model::RowId id : map.landmarks) {
+    const model::Point* at = model.point_in(model[id], "at");
+    whole = whole && at != nullptr;
+    if (whole) made.places.push_back({std::string(model[id].name), "", {at->x, at->y}, {}});
+  }
+  for (const model::MapRoad& road : map.roads) {
+    const model::Row& row = model[road.row];
+    const auto* from = std::get_if<model::RowId>(model.field(row, "from"));
+    const auto* to = std::get_if<model::RowId>(model.field(row, "to"));
+    const std::string_view exit = model.member_in(row, "exit");
+    whole = whole && from != nullptr && to != nullptr && !exit.empty();
+    if (!whole) break;
+    layout::Way way{.id = fmt::format("{}.{}", model[*from].name, exit), .from = std::string(model[*from].name), .to = std::string(model[*to].name), .through = {}, .from_span = {}, .to_span = {}};
+    for (const model::Point& bend : map.through(road)) way.through.push_back({bend.x, bend.y});
+    way.limit_m_s = static_cast<double>(road.limit_m_per_s);
+    way.method = model.member_in(row, "by");
+    made.ways.push_back(std::move(way));
+  }
+  if (whole) return made;
+  diagnostics.report(diagnostics::Kind::kGraphNothing, {}, {options.file, "map whose landmarks have a place `at` and whose roads have `from`, `to` and `exit`"});
+  return std::nullopt;
+}
+
+std::optional<std::string> export_map(const ExportOptions& options, const driver::Compilation& compiled, diagnostics::Diagnostics& diagnostics) {
+  const model::Map* map = find_map(compiled.model.maps, options, diagnostics);
+  if (map == nullptr) return std::nullopt;
+  const auto layout = layout_of(compiled.model, *map, options, diagnostics);
+  if (!layout) return std::nullopt;
+  return layout::write_lif(*layout, {.map = map->name, .vehicle = options.vehicle, .timestamp = options.timestamp});
+}
 
 int run_export(const ExportOptions& options, Session& session) {
   const auto compiled = session.compile(options.file, driver::Stage::kProgram);
   if (!compiled->ok()) return kErrors;
   auto diagnostics = session.diagnostics(compiled->sources);
-  const fuzzy::Controller* controller = find_fuzzy(compiled->program.fuzzy, options.file, options.controller, diagnostics);
-  if (controller == nullptr) return kErrors;
-  auto text = fll::export_engine(*controller, diagnostics);
+  auto text = options.format == "fll" ? export_fuzzy(options, *compiled, diagnostics) : export_map(options, *compiled, diagnostics);
   return text ? session.deliver(options.output, std::move(*text)) : kErrors;
 }
 
@@ -28,10 +87,15 @@ int run_export(const ExportOptions& options, Session& session) {
 
 Run setup_export(CLI::App& app) {
   auto options = std::make_shared<ExportOptions>();
-  app.add_option("FORMAT", options->format, "What to write: fll")->required()->check(CLI::IsMember({"fll"}));
+  app.add_option("FORMAT", options->format, "What to write: fll, a fuzzy controller; lif, a map")->required()->check(CLI::IsMember({"fll", "lif"}));
   app.add_option("FILE", options->file, "The knowledge base")->required();
-  app.add_option("CONTROLLER", options->controller, "Which fuzzy controller; needed if there are several");
+  app.add_option("NAME", options->name, "Which fuzzy controller, or which map; needed if there are several");
+  auto* vehicle = app.add_option("--vehicle", options->vehicle, "lif: the type of vehicle that may use its nodes and edges")->type_name("TYPE")->capture_default_str();
+  auto* timestamp = app.add_option("--timestamp", options->timestamp, "lif: when the file was made; as long as it is not given, the same map is the same file")->type_name("TIME")->capture_default_str();
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
+  app.parse_complete_callback([options, vehicle, timestamp] {
+    if (options->format == "fll" && (vehicle->count() > 0 || timestamp->count() > 0)) throw CLI::ValidationError("--vehicle and --timestamp stand in a layout, so they need `lif`");
+  });
   return [options](Session& session) { return run_export(*options, session); };
 }
 

@@ -110,10 +110,12 @@ constexpr std::array kCommands = {
             "kbc import opentcs plant.xml --by azimuth        # its roads are not painted\n"
             "kbc import fll engine.fll -o engine.kb\n",
             Shared::kCompiles, setup_import},
-    Command{"export", "Write a fuzzy controller for another program",
-            "Writes FLL, the language of fuzzylite 6. If FLL cannot express something, that is reported and nothing is written.",
+    Command{"export", "Write a fuzzy controller or a map for another program",
+            "Writes FLL, the language of fuzzylite 6: if FLL cannot express something, that is reported and nothing is written. Or a map as LIF 1.0, "
+            "the Layout Interchange Format of the VDMA: landmarks are nodes, roads are edges by the names that orders of a master use, `Mill.N`.",
             "kbc export fll mission.kb -o engine.fll\n"
-            "kbc export fll mission.kb GoToGoal -o engine.fll\n",
+            "kbc export fll mission.kb GoToGoal -o engine.fll\n"
+            "kbc export lif plant.kb --vehicle Acme.Tug -o plant.json        # for a fleet's master\n",
             Shared::kCompiles, setup_export},
     Command{"plan", "Find paths on a map, by any of the planners",
             "Reads a MovingAI .map or the .yaml of a ROS map. Prints whether the goal was reached and how long the path is. A separate "

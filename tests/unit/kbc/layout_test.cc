@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <tuple>
 
 #include "compiler/diagnostics/consumers.h"
 #include "tools/kbc/layout/curve.h"
@@ -86,6 +87,44 @@ std::vector<std::string_view> exits(const std::vector<double>& degrees) {
   const auto roads = roads_of(star(degrees), adaptations, file.diagnostics);
   if (roads) for (const Road& road : *roads) sides.push_back(kSides[road.exit]);
   return sides;
+}
+
+/// Places on a grid of centimetres, and ways with up to three bends between them.
+Layout random_layout(std::mt19937& random) {
+  const auto centimetres = [&] { return static_cast<double>(static_cast<int>(random() % 10'000) - 5'000) / 100.0; };
+  Layout layout;
+  for (std::size_t i = 0; i < 2 + random() % 9; ++i) layout.places.push_back({"P" + std::to_string(i), "", {centimetres(), centimetres()}, {}});
+  for (std::size_t i = 0; i < random() % 20; ++i) {
+    const auto any = [&] { return layout.places[random() % layout.places.size()].id; };
+    Way way{"way " + std::to_string(i), any(), any(), {}, false, {}, {}};
+    for (std::size_t bends = random() % 4; bends > 0; --bends) way.through.push_back({centimetres(), centimetres()});
+    way.limit_m_s = static_cast<double>(random() % 3) / 4.0;
+    layout.ways.push_back(std::move(way));
+  }
+  return layout;
+}
+
+TEST(Lif, WhatIsWrittenIsReadAsItWas) {
+  std::mt19937 random(11);
+  for (int round = 0; round < 200; ++round) {
+    const Layout layout = random_layout(random);
+    File file(write_lif(layout, {.map = "Hall \"\xC3\xA4\"", .vehicle = "any\xFF", .timestamp = "1970-01-01T00:00:00Z"}));
+    Adaptations adaptations;
+    const auto read = read_lif(file.sources, file.id, {}, adaptations, file.diagnostics);
+    ASSERT_TRUE(read);
+    adaptations.report(file.diagnostics);
+    EXPECT_EQ(file.diagnostics.warnings(), 0u);
+    ASSERT_EQ(read->places.size(), layout.places.size());
+    for (std::size_t i = 0; i < layout.places.size(); ++i) {
+      EXPECT_EQ(read->places[i].id, layout.places[i].id);
+      EXPECT_EQ(read->places[i].at, layout.places[i].at);
+    }
+    ASSERT_EQ(read->ways.size(), layout.ways.size());
+    for (std::size_t i = 0; i < layout.ways.size(); ++i) {
+      const Way &now = read->ways[i], &was = layout.ways[i];
+      EXPECT_EQ(std::tie(now.id, now.from, now.to, now.through, now.limit_m_s), std::tie(was.id, was.from, was.to, was.through, was.limit_m_s));
+    }
+  }
 }
 
 using Sides = std::vector<std::string_view>;

@@ -5,6 +5,7 @@
 //   stops --mission_by_stops--> Mission --write_mission--> more of that text
 //   order --mission_of_order--> Mission
 //   node, edge --Edges (edges.h)--> Visits
+//   Layout --write_lif--> bytes
 //
 // A layout is places and the ways between them. Anything else in a file (loads, actions, costs) is left out; if that changes where a
 // robot can drive, it is reported (KB1412, -Wlayout-adapted).
@@ -61,6 +62,7 @@ struct Way {
   source::Span from_span, to_span;
   double limit_m_s = 0.0;         ///< the fastest that it may be driven; 0: no limit
   bool goes_on = false;           ///< the next way in Layout::ways continues it (joined)
+  std::string method = {};        ///< how it is driven, if the layout comes from a map: `mark`, `dist`
 };
 
 /// Where vehicles load and unload: not a place, but another name for the places at which it is served.
@@ -109,6 +111,16 @@ using Reader = std::optional<Layout> (*)(source::Sources& sources, source::FileI
                                               Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
 [[nodiscard]] std::optional<Layout> read_opentcs(source::Sources& sources, source::FileId file, const Choice& choice,
                                                  Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
+
+/// What stands in a LIF file beside the layout.
+struct LifHead {
+  std::string map;         ///< the id of the layout and of its map
+  std::string vehicle;     ///< the type of vehicle for which nodes and edges are
+  std::string timestamp;   ///< when the file was made, ISO 8601
+};
+/// The layout as LIF 1.0, which read_lif reads again. Ways must lead between its places. `method` becomes a description, for LIF has no
+/// word for it. Linear in the layout.
+[[nodiscard]] std::string write_lif(const Layout& layout, const LifHead& head);
 
 /// The same with one place for each spot, and with ways split where they run over a place (within 15 cm). Nothing if they run over places
 /// more than 300,000 times (reported). O(ways log places) if places and ways are few in any strip of the layout.
