@@ -1,16 +1,14 @@
 // kbc export: fuzzy controllers and maps for other programs.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "tools/kbc/fll/fll.h"
-#include "tools/kbc/fuzzy_support.h"
+#include "tools/kbc/find_named.h"
 #include "tools/kbc/layout/layout.h"
 
 namespace kb::cli {
@@ -24,19 +22,6 @@ struct ExportOptions {
 std::optional<std::string> export_fuzzy(const ExportOptions& options, const driver::Compilation& compiled, diagnostics::Diagnostics& diagnostics) {
   const fuzzy::Controller* controller = find_fuzzy(compiled.program.fuzzy, options.file, options.name, diagnostics);
   return controller == nullptr ? std::nullopt : fll::export_engine(*controller, diagnostics);
-}
-
-/// The map called `name`, or the only one if `name` is empty; null (reported) if there is none, or more than one.
-const model::Map* find_map(const std::vector<model::Map>& all, const ExportOptions& options, diagnostics::Diagnostics& diagnostics) {
-  std::vector<std::string_view> names;
-  for (const model::Map& map : all) {
-    if (map.name == options.name || (options.name.empty() && all.size() == 1)) return &map;
-    names.push_back(map.name);
-  }
-  std::string which = options.name.empty() ? "map" : "map `" + options.name + "`";
-  if (options.name.empty() && !all.empty()) which += fmt::format(" that is the only one; name one of its {}: {}", all.size(), fmt::join(names, ", "));
-  diagnostics.report(diagnostics::Kind::kGraphNothing, {}, {options.file, which}).suggest(diagnostics::closest(options.name, names));
-  return nullptr;
 }
 
 /// The map as places and ways, each named by the landmark and the exit by which it leaves, as orders of a master name roads. Nothing (reported)
@@ -68,7 +53,9 @@ std::optional<layout::Layout> layout_of(const model::Model& model, const model::
 }
 
 std::optional<std::string> export_map(const ExportOptions& options, const driver::Compilation& compiled, diagnostics::Diagnostics& diagnostics) {
-  const model::Map* map = find_map(compiled.model.maps, options, diagnostics);
+  const model::Map* map = find_named(compiled.model.maps, options.name, [&](const std::string& which) {
+    return diagnostics.report(diagnostics::Kind::kGraphNothing, {}, {options.file, "map" + which});
+  });
   if (map == nullptr) return std::nullopt;
   const auto layout = layout_of(compiled.model, *map, options, diagnostics);
   if (!layout) return std::nullopt;

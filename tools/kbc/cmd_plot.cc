@@ -13,7 +13,7 @@
 #include "compiler/emit/prototype_svg.h"
 #include "compiler/source/numbers.h"
 #include "tools/kbc/checks.h"
-#include "tools/kbc/fuzzy_support.h"
+#include "tools/kbc/find_named.h"
 
 namespace kb::cli {
 namespace {
