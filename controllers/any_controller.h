@@ -48,10 +48,12 @@ class AnyController {
 
   [[nodiscard]] ControllerId id() const noexcept { return id_; }
 
-  /// Sets a parameter that takes a word, such as `left`. `kOutside` if it has no such word, or takes a number.
+  /// Sets a parameter that takes a word, such as `left`. `kOutside` if it has no such word, or takes a number. An empty word, which a `control`
+  /// line without one has, leaves it as it is.
   [[nodiscard]] Setting set_word(const char* name, const char* word) noexcept {
     const Parameter* parameter = find_parameter(id_, name);
-    return parameter == nullptr ? Setting::kUnknown : set(name, number_of_word(*parameter, word));
+    if (parameter == nullptr) return Setting::kUnknown;
+    return word[0] == '\0' ? Setting::kSet : set(name, number_of_word(*parameter, word));
   }
   /// Sets a parameter, in the unit the registry gives; a word is the number from `number_of_word`. Call it before `start`. If you
   /// set parameters while the controller drives, some take effect at once (most speeds), others at the next `start`.

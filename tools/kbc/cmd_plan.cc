@@ -219,7 +219,7 @@ Run setup_plan(CLI::App& app) {
   auto options = std::make_shared<PlanOptions>();
   auto* list = app.add_flag("--list", options->list, "Print all methods, and what each of them knows of the world");
   app.add_option("FILE", options->map, "The map: MovingAI's .map, or the .yaml of a ROS map");
-  auto* from = app.add_option("--from", options->from, "The start: column,row of a .map, counted from the top left; x,y in metres on a ROS map. Planners on the grid begin in the middle of its cell")->type_name("POINT");
+  auto* from = app.add_option("--from", options->from, "The start: column,row of a .map, counted from the top left; x,y in metres on a ROS map. Planners on the grid go from the middle of its cell to the middle of the goal's")->type_name("POINT");
   auto* to = app.add_option("--to", options->to, "The goal, written like the start")->type_name("POINT");
   app.add_option("--radius", options->radius_m, "The robot's radius: all methods keep this distance from blocked cells (0: a point)")->type_name("METRES")->check(is_length());
   app.add_option("--method", options->methods, "The method, as --list names it (neural); may be given several times")->type_name("METHOD");

@@ -103,6 +103,7 @@ TEST(AnyController, SetsWhatIsInRangeAndSaysWhatIsNot) {
   controller.choose(ControllerId::kKeepWall, body);
   EXPECT_EQ(controller.set("side", 1.5f), Setting::kOutside) << "between two words";
   EXPECT_EQ(controller.set_word("side", "right"), Setting::kSet);
+  EXPECT_EQ(controller.set_word("side", ""), Setting::kSet) << "as it was";
   EXPECT_EQ(controller.set_word("side", "back"), Setting::kOutside) << "no word of it";
   EXPECT_EQ(controller.set_word("speed", "right"), Setting::kOutside) << "a number";
   EXPECT_EQ(controller.set_word("sides", "right"), Setting::kUnknown);
