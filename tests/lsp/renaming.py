@@ -117,6 +117,9 @@ def each_kind_of_name(kbc, library, folder):
                           ('Halted', '', 'is no name'), ('Halted', 'x' * 256, '255 bytes'), ('back }', 'ahead', ''), ('d]', 'back', '')):
         expect(why in refusal(editor, uri, MAIN, at, name), f'it says why: {why}')
     expect('changes' not in editor.of(uri, 'rename', MAIN, 'think', newName='map'), 'a level may be called as a word of the language')
+    for control in ('control Drive[d] = go(way: d)\ncontrol Rest = go(way: back)\n', 'control Drive[d] = turn_on_line(turn: d)\n'):
+        editor.change(uri, told := MAIN[:MAIN.index('control Rest')] + control)
+        expect('is also the word that `' in refusal(editor, uri, told, 'back }'), 'a controller would not know the new name of what a variable hands to it')
     editor.change(uri, wrong := MAIN.replace('any Wall', 'any Wal'))
     expect('while there are errors' in refusal(editor, uri, wrong, 'Halted') and 'robot.kb:13:' in refusal(editor, uri, wrong, 'Halted'), 'of what has errors nothing is renamed')
     editor.change(uri, wrong := MAIN + 'rule')

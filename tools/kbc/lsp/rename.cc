@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include <waymark/controllers/registry.h>
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/answers.h"
 #include "tools/kbc/lsp/everywhere.h"
@@ -113,6 +114,7 @@ class Renaming {
 
   void verify(const Standing& base, const Knowledge& after) const {
     check_messages(*base.knowledge, after);
+    check_words(base.knowledge->compiled->model, after.compiled->model);
     Occurrences expected;
     for (const auto& [file, begins] : places(*base.knowledge, base.uses)) {
       for (const std::uint32_t begin : begins) expected[file].insert(moved(file, begin));
@@ -129,6 +131,29 @@ class Renaming {
       if (is_word(new_)) refuse(fmt::format("`{}` is a word of the language", new_));
       refuse(fmt::format("with the name `{}` there is a new message: {}", new_, told(after, message)));
     }
+  }
+
+  /// A member may be what a variable hands to a controller as a word. Refuses the new name if the controller is told the old one elsewhere, or
+  /// is one of Waymark's, which knows its words.
+  void check_words(const model::Model& before, const model::Model& after) const {
+    for (std::size_t i = 0; i < std::min(before.controls.size(), after.controls.size()); ++i) {
+      const model::Control &was = before.controls[i], &is = after.controls[i];
+      for (std::size_t k = 0; k < std::min(was.arguments.size(), is.arguments.size()); ++k) {
+        const auto& argument = is.arguments[k];
+        if (was.arguments[k].word == argument.word) continue;
+        const mts::ControllerEntry* known = mts::find_controller(is.controller.c_str());
+        const mts::Parameter* parameter = known == nullptr ? nullptr : mts::find_parameter(known->id, argument.name.c_str());
+        const bool taken = parameter != nullptr && mts::number_of_word(*parameter, old_.c_str()) >= 0.0f;
+        if (taken || is_told(after, is.controller, argument.name)) refuse(fmt::format("`{}` is also the word that `{}` takes for its `{}`", old_, is.controller, argument.name));
+      }
+    }
+  }
+
+  /// Whether some line tells the controller the old name.
+  [[nodiscard]] bool is_told(const model::Model& model, std::string_view controller, std::string_view argument) const {
+    return std::ranges::any_of(model.controls, [&](const model::Control& control) {
+      return control.controller == controller && std::ranges::any_of(control.arguments, [&](const auto& one) { return one.name == argument && one.word == old_; });
+    });
   }
 
   /// Whether both mean the same except for the name.
