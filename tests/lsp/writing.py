@@ -81,6 +81,11 @@ def half_written(kbc, library, folder):
         items = editor.of(uri, 'completion', position={'line': MISSION.count('\n') + written.count('\n'), 'character': len(written.rsplit('\n', 1)[-1])})
         return [item['label'] for item in items]
     expect({'Errand', 'Dock', 'Rest'} <= set(offered('rule next at goal when seen Dock and Er')), 'and are offered')
+    expect('exit' in offered('detours on Errand when Closed[') and 'exit' not in offered('rule next at goal when Closed['), 'a detour may ask for the exit of its leg')
+    expect('leg' in offered('detours on Errand when not seen le') and {'from', 'to', 'next'} <= set(offered('detours on Errand when not seen leg.')), 'and for the leg')
+    expect({'ms', 'h'} <= set(offered('rule next at goal when Dock for 1 ')) and 'deg' not in offered('rule next at goal when Dock for 1 '), 'behind `for` units of time')
+    expect({'Go', 'Inn'}.isdisjoint(offered('rule next at goal when Dock then +')), 'an effect writes no fact')
+    expect(offered('set event = ') == [] and {'stop', 'hold'} <= set(offered('set idle = ')), 'words for the setting that takes some')
     (folder / 'maps').mkdir()
     (folder / 'maps' / 't\u00e4l.kb').write_text('')
     editor.change(uri, text := 'import "maps/t\u00e4')

@@ -66,6 +66,7 @@ Json members(const OpenFile& file, std::span<const Lexeme> lexemes, std::string_
     landmark = landmark || name.kind == "Landmark";
     rows = landmark ? std::nullopt : relation_called(model, name.kind);   // the kind of a row is its relation
   }
+  if (!rows && !landmark && path.front() == "leg") rows = relation_called(model, "Leg");   // in the condition of a detour
   for (std::size_t i = 1; i < path.size() && rows; ++i) rows = rows_in(model, *rows, path[i]);
   for (const std::string& field : rows ? model[*rows].fields : std::vector<std::string>()) out.add(field, kField, "field of " + model[*rows].name);
   if (landmark && !rows) add(exits(model));

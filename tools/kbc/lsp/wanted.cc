@@ -41,7 +41,7 @@ bool fits(N wanted, const model::KnownName& name) {
     case N::kSettingWord: return kind == "strategy";
     case N::kFact: return kind == "fact" || is_row(kind);
     case N::kFactOrStrategy: return kind == "strategy" || fits(N::kFact, name);
-    case N::kSatellite: return kind == "satellite" || is_row(kind);
+    case N::kSatellite: return kind == "satellite" || (is_row(kind) && kind != "Landmark" && kind != "Command");   // these are facts
     case N::kCell: return is_cell(kind) || is_row(kind);
     case N::kGroup: return is_cell(kind) || kind == "relation";
     case N::kPercept: return kind == "sensor" || fits(N::kFact, name);
@@ -76,7 +76,7 @@ class WantedItems {
     for (const std::string_view word : fuzzy::kHedges) {
       if (hedged && word != "not") out_.add(word, kKeyword);
     }
-    if (wanted_.names == N::kNone) return out_.take();
+    if (wanted_.names == N::kNone || (wanted_.names == N::kSettingWord && before(2) != "idle")) return out_.take();   // others take numbers
     const std::vector<std::string_view> fixed = fixed_words();
     for (const std::string_view word : fixed) out_.add(word, wanted_.names == N::kUnit ? kUnit : kMember);
     if (wanted_.names == N::kController) {
@@ -84,6 +84,7 @@ class WantedItems {
     }
     declared();
     members();
+    of_detours();
     if (wanted_.names == N::kRowField) fields();
     else if (fixed.empty() || wanted_.names == N::kShape) in_file();
     return out_.take();
@@ -99,7 +100,7 @@ class WantedItems {
       case N::kState: return {word(program::Term::kLow), word(program::Term::kZero), word(program::Term::kHigh)};
       case N::kFuzzyOutput: return {fuzzy::kCombineWords.begin(), fuzzy::kCombineWords.end()};
       case N::kText: return {"text"};
-      case N::kUnit: return model::unit_names();
+      case N::kUnit: return before(2) == "for" ? std::vector<std::string_view>{"us", "ms", "s", "min", "h"} : model::unit_names();
       case N::kSetting: return {model::kSettingNames.begin(), model::kSettingNames.end()};
       case N::kSettingWord: return {"stop", "hold"};
       case N::kShape: {
@@ -109,6 +110,20 @@ class WantedItems {
       }
       default: return {};
     }
+  }
+
+  /// The lexeme that stands so many before the place; empty if there are fewer.
+  [[nodiscard]] std::string_view before(std::size_t back) const {
+    const auto at = std::ranges::lower_bound(lexemes_, offset_, {}, [](const Lexeme& one) { return one.span.begin; });
+    return static_cast<std::size_t>(at - lexemes_.begin()) >= back ? text(*(at - static_cast<std::ptrdiff_t>(back))) : std::string_view();
+  }
+
+  /// The conditions of detours speak of the leg that is barred, and of the exit by which it leaves.
+  void of_detours() {
+    const auto begin = std::ranges::lower_bound(lexemes_, wanted_.statement, {}, [](const Lexeme& one) { return one.span.begin; });
+    if (begin == lexemes_.end() || (text(*begin) != "detour" && text(*begin) != "detours")) return;
+    if (wanted_.names == N::kIndex) out_.add("exit", kMember, "of the leg");
+    if (takes_variables(wanted_.names)) out_.add("leg", kText, "the leg of the route");
   }
 
   void declared() {
