@@ -72,8 +72,7 @@ Tick Interpreter::tick(std::span<const float> facts, std::uint32_t dt_us) {
 void Interpreter::take_facts(std::span<const float> facts, Tick& tick) {
   for (std::uint32_t i = 0; i < program_.facts; ++i) {
     const float given = i < facts.size() ? facts[i] : 0.0f;
-    const bool good = given >= -1.0f && given <= 1.0f;
-    if (!good) ++tick.bad_facts;
+    if (!is_certainty(given)) ++tick.bad_facts;
     cf_[i] = std::isnan(given) ? 0.0f : std::clamp(given, -1.0f, 1.0f);
   }
   if (tick.bad_facts > 0) worsen(tick, Status::kBadFact);

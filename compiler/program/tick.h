@@ -26,6 +26,9 @@ struct CellValue {
   float value = 0.0f;
   friend bool operator==(const CellValue&, const CellValue&) = default;
 };
+/// Whether a fact may be given so. NaN may not.
+[[nodiscard]] constexpr bool is_certainty(float given) { return given >= -1.0f && given <= 1.0f; }
+
 struct Conflict {
   CellId cell = CellId::kNone;
   std::vector<RuleId> rules;  ///< all rules that wrote the cell in that level, ascending

@@ -31,13 +31,8 @@ std::string seconds(std::int64_t time_us, std::int64_t other_us) {
 
 /// The threshold that the fact had to pass on this tick to be seen.
 float limit_of(const Program& program, const Record& record, CellId fact) {
-  const auto firing = static_cast<float>(program.settings.firing);
-  const std::vector<float>& before = record.levels.front().cf;  // no rule has written yet
-  const auto& satellites = program[fact].satellites;
-  const bool attended = seen_before(record, fact) ||
-                        std::any_of(satellites.begin(), satellites.end(), [&](CellId s) { return before[index(s)] >= firing; });
   const Thresholds limits = thresholds(program[fact]);
-  return attended ? limits.attended : limits.plain;
+  return seen_before(record, fact) || attending(program, record, fact) != CellId::kNone ? limits.attended : limits.plain;
 }
 
 class Explainer {
@@ -253,6 +248,14 @@ std::string strategy_text(const Program& program, const Record& record, const St
 }
 
 }  // namespace
+
+CellId attending(const Program& program, const Record& record, CellId fact) {
+  const auto firing = static_cast<float>(program.settings.firing);
+  const std::vector<float>& before = record.levels.front().cf;
+  const auto& satellites = program[fact].satellites;
+  const auto high = std::find_if(satellites.begin(), satellites.end(), [&](CellId satellite) { return before[index(satellite)] >= firing; });
+  return high == satellites.end() ? CellId::kNone : *high;
+}
 
 Reason explain_condition(const Program& program, const Record& record, std::uint32_t level, CondId condition) {
   const Explainer explainer(program, record, level);

@@ -50,6 +50,10 @@ struct Record {
   return record.lost[i] || (record.seen[i] && !record.event[i] && record.tick.number > 1);
 }
 
+/// The satellite that drew attention to a fact on the tick in question: one that was high when it began, before any rule had written.
+/// None if there is none.
+[[nodiscard]] CellId attending(const Program& program, const Record& record, CellId fact);
+
 class Recorder final : public Interpreter::Observer {
  public:
   /// Records tick `wanted` (the first is 1) of the interpreter that it observes. Both must outlive it.

@@ -64,7 +64,7 @@ struct Counts {
     events += tick.events.size();
     conflicts.add(tick.conflicts.size(), tick);
     if (tick.bad_facts > 0 && bad_facts.count == 0) {
-      const auto bad = std::ranges::find_if(facts, [](float certainty) { return !(certainty >= -1.0f && certainty <= 1.0f); });
+      const auto bad = std::ranges::find_if_not(facts, program::is_certainty);
       if (bad != facts.end()) bad_facts.what = fmt::format("`{}` is {}", program.cells[static_cast<std::size_t>(bad - facts.begin())].name, *bad);
     }
     bad_facts.add(tick.bad_facts, tick);

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -97,8 +96,8 @@ class Replay {
   // How the fact in question was perceived, or what is wrong with how it was given.
   [[nodiscard]] std::string given(float certainty) const {
     const std::string perceived = senses_.explain(question_.cell);
-    const bool good = certainty >= -1.0f && certainty <= 1.0f;
-    return !perceived.empty() || good ? perceived : fmt::format("  given as {}, which counts as {}\n", certainty, std::isnan(certainty) ? "0" : certainty > 0.0f ? "1" : "-1");
+    if (!perceived.empty() || program::is_certainty(certainty)) return perceived;
+    return fmt::format("  given as {}, which counts as {}\n", certainty, record().cf_after[index(question_.cell)]);
   }
 
   const program::Program& program_;

@@ -38,8 +38,8 @@ class BatchFiles {
   /// `batch` must outlive it. `fingerprint` is equal for runs that belong together.
   BatchFiles(std::string folder, const sim::batch::Batch& batch, std::string fingerprint);
 
-  /// Looks at the files there: at the shards in `wanted`, which ascend, and at the beginning of one of the others. False (reported, with the place) if one belongs to another batch, is
-  /// damaged, or cannot be read.
+  /// Looks at the files there: at the shards in `wanted`, which ascend, and at the beginning of one of the others. False (reported, with the
+  /// place) if one belongs to another batch, is damaged, or cannot be read.
   [[nodiscard]] bool open(Session& session, const std::vector<std::size_t>& wanted);
   /// The wanted shards that are missing, in order.
   [[nodiscard]] const std::vector<std::size_t>& missing() const { return missing_; }

@@ -11,6 +11,9 @@ namespace kb::layout {
 
 constexpr double kOver_m = 0.15;   ///< a road runs over a place that is no farther than this from its middle
 
+/// A length or a speed as maps and layouts have it: rounded to tenths of a millimetre, and never -0.
+[[nodiscard]] inline double as_written(double metres) { return std::round(metres * 1e4) / 1e4 + 0.0; }
+
 /// Where along a piece, from 0 to 1, it is nearest to a point, and the distance there.
 struct Near { double share = 0.0, distance_m = 0.0; };
 [[nodiscard]] Near nearest(Point p, Point a, Point b);

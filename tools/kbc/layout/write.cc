@@ -3,27 +3,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "compiler/diagnostics/display.h"
 #include "compiler/syntax/syntax.h"
+#include "tools/kbc/layout/chain.h"
 #include "tools/kbc/layout/layout.h"
 
 namespace kb::layout {
 
 namespace {
 
-// Rounded to tenths of a millimetre; adding 0.0 turns -0 into 0.
-std::string point_text(Point p) {
-  const auto rounded = [](double m) { return std::round(m * 1e4) / 1e4 + 0.0; };
-  return fmt::format("({}, {})", rounded(p.x_m), rounded(p.y_m));
-}
-
-/// Rounded to tenths of a millimetre a second.
-double speed(double m_s) { return std::round(m_s * 1e4) / 1e4; }
+std::string point_text(Point p) { return fmt::format("({}, {})", as_written(p.x_m), as_written(p.y_m)); }
 
 /// Whether a text from `worded` can begin the name of a landmark. With `_` behind it, it is no word of the language.
 bool begins_name(const std::string& text) { return !text.empty() && text[0] != '_' && syntax::is_name(text + '_'); }
@@ -80,7 +73,7 @@ std::string write_map(const Map& map, const Wording& wording) {
   for (const Road& road : roads) {
     fmt::format_to(to, "road {}.{} {} {}.{} by {}", names[road.from], kSides[road.exit], road.both ? "--" : "->", names[road.to],
                    kSides[road.approach], road.marked ? "mark" : wording.method);
-    if (road.limit_m_s > 0.0) fmt::format_to(to, " at most {} m/s", speed(road.limit_m_s));
+    if (road.limit_m_s > 0.0) fmt::format_to(to, " at most {} m/s", as_written(road.limit_m_s));
     for (std::size_t i = 0; i < road.through.size(); ++i) fmt::format_to(to, "{}{}", i == 0 ? " through " : ", ", point_text(road.through[i]));
     out += '\n';
   }

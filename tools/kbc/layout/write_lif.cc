@@ -1,5 +1,4 @@
 // A layout as LIF 1.0: what read_lif reads.
-#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -17,10 +16,7 @@ using nlohmann::ordered_json;
 /// Names from a command line may be any bytes; what is no UTF-8 becomes U+FFFD.
 std::string text(const ordered_json& json) { return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace); }
 
-/// Rounded to tenths of a millimetre, as maps are written; adding 0.0 turns -0 into 0.
-double rounded(double metres) { return std::round(metres * 1e4) / 1e4 + 0.0; }
-
-ordered_json point(Point at) { return {{"x", rounded(at.x_m)}, {"y", rounded(at.y_m)}}; }
+ordered_json point(Point at) { return {{"x", as_written(at.x_m)}, {"y", as_written(at.y_m)}}; }
 
 /// Straight pieces are a spline of degree 1, whose first and last knots stand twice.
 ordered_json trajectory(const std::vector<Point>& chain) {
@@ -39,7 +35,7 @@ ordered_json node(const Place& place, const LifHead& head) {
 
 ordered_json edge(const Way& way, const PlaceIndex& places, const LifHead& head) {
   ordered_json of_vehicle = {{"vehicleTypeId", head.vehicle}, {"vehicleOrientation", 0.0}, {"orientationType", "TANGENTIAL"}, {"rotationAllowed", true}};
-  if (way.limit_m_s > 0.0) of_vehicle["maxSpeed"] = rounded(way.limit_m_s);
+  if (way.limit_m_s > 0.0) of_vehicle["maxSpeed"] = as_written(way.limit_m_s);
   if (!way.through.empty()) of_vehicle["trajectory"] = trajectory(chain_of(places.find(way.from)->at, way.through, places.find(way.to)->at));
   ordered_json made = {{"edgeId", way.id}, {"startNodeId", way.from}, {"endNodeId", way.to}};
   if (!way.method.empty()) made["edgeDescription"] = "by " + way.method;

@@ -112,15 +112,19 @@ class WantedItems {
     }
   }
 
+  /// The first lexeme that begins there or behind it.
+  [[nodiscard]] std::vector<Lexeme>::const_iterator lexeme_at(std::uint32_t place) const {
+    return std::ranges::lower_bound(lexemes_, place, {}, [](const Lexeme& one) { return one.span.begin; });
+  }
   /// The lexeme that stands so many before the place; empty if there are fewer.
   [[nodiscard]] std::string_view before(std::size_t back) const {
-    const auto at = std::ranges::lower_bound(lexemes_, offset_, {}, [](const Lexeme& one) { return one.span.begin; });
+    const auto at = lexeme_at(offset_);
     return static_cast<std::size_t>(at - lexemes_.begin()) >= back ? text(*(at - static_cast<std::ptrdiff_t>(back))) : std::string_view();
   }
 
   /// The conditions of detours speak of the leg that is barred, and of the exit by which it leaves.
   void of_detours() {
-    const auto begin = std::ranges::lower_bound(lexemes_, wanted_.statement, {}, [](const Lexeme& one) { return one.span.begin; });
+    const auto begin = lexeme_at(wanted_.statement);
     if (begin == lexemes_.end() || (text(*begin) != "detour" && text(*begin) != "detours")) return;
     if (wanted_.names == N::kIndex) out_.add("exit", kMember, "of the leg");
     if (takes_variables(wanted_.names)) out_.add("leg", kText, "the leg of the route");
@@ -205,8 +209,8 @@ class WantedItems {
 
   /// Fields of the relation that the row being written does not have yet.
   void fields() {
-    const auto begin = std::ranges::lower_bound(lexemes_, wanted_.statement, {}, [](const Lexeme& one) { return one.span.begin; });
-    const auto open = std::find_if(begin, lexemes_.end(), [&](const Lexeme& one) { return text(one) == "("; });
+    const auto begin = lexeme_at(wanted_.statement);
+    const auto open = std::find_if(begin, lexemes_.cend(), [&](const Lexeme& one) { return text(one) == "("; });
     const auto relation = open == lexemes_.end() || open == begin ? std::nullopt : relation_called(model(), text(*std::prev(open)));
     if (!relation) return;
     std::vector<std::string_view> given;

@@ -94,16 +94,12 @@ void sort_by_nearness(std::vector<RuleAnswer>& answers) {
   });
 }
 
-// The threshold that a fact had to pass on this tick. A tick's thresholds are fixed before any rule has written.
+// The threshold that a fact had to pass on this tick.
 std::string threshold_text(const Program& program, const Record& record, CellId fact) {
   const program::Thresholds limits = program::thresholds(program[fact]);
   if (seen_before(record, fact)) return fmt::format("seen above {:.2f}, as it was seen on the tick before", limits.attended);
-  const std::vector<float>& before = record.levels.front().cf;
-  for (const CellId satellite : program[fact].satellites) {
-    if (before[index(satellite)] < firing(program)) continue;
-    return fmt::format("seen above {:.2f}, as `{}` was high when the tick began", limits.attended,
-                       program[satellite].name);
-  }
+  if (const CellId satellite = attending(program, record, fact); satellite != CellId::kNone)
+    return fmt::format("seen above {:.2f}, as `{}` was high when the tick began", limits.attended, program[satellite].name);
   return fmt::format("seen above {:.2f}, as no satellite of it was high when the tick began (above {:.2f} if one were)",
                      limits.plain, limits.attended);
 }
@@ -117,10 +113,7 @@ CellAnswer answer_cell(const Program& program, const Record& record, CellId cell
   found.push_back(out.story.value);
   out.passing = levels_in_passing(found);
   if (out.story.value >= firing(program)) return out;
-  const std::vector<std::uint32_t> group_of = program::group_of_cells(program);
-  for (const RuleId rule : raisers(program, cell)) {
-    if (program::net_value(program, group_of, program[rule], cell) > out.story.value) out.raisers.push_back(answer_rule(program, record, rule));
-  }
+  for (const RuleId rule : raisers(program, cell, out.story.value)) out.raisers.push_back(answer_rule(program, record, rule));
   sort_by_nearness(out.raisers);
   out.lacks_raiser = out.raisers.empty();
   return out;
@@ -148,16 +141,16 @@ std::vector<std::uint32_t> levels_in_passing(const std::vector<float>& found) {
   return levels;
 }
 
-std::vector<RuleId> raisers(const Program& program, CellId cell) {
+std::vector<RuleId> raisers(const Program& program, CellId cell, float above) {
   const std::vector<std::uint32_t> group_of = program::group_of_cells(program);
   std::vector<RuleId> found;
-  float most = -1.0f;
+  float most = above;
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const auto value = program::net_value(program, group_of, program.rules[i], cell);
-    const float counted = std::min(value.value_or(-1.0f), firing(program));
+    const float counted = std::min(value.value_or(above), firing(program));
     if (counted > most) found.clear();
     most = std::max(most, counted);
-    if (counted == most && most > -1.0f) found.push_back(RuleId{i});
+    if (counted == most && most > above) found.push_back(RuleId{i});
   }
   return found;
 }

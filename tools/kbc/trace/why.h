@@ -30,8 +30,9 @@ struct Nearness {
 /// The levels whose rules found a cell at a value that it had neither before the tick nor after it, ascending. `found`: see Recorder::found.
 [[nodiscard]] std::vector<std::uint32_t> levels_in_passing(const std::vector<float>& found);
 
-/// The rules that make the satellite or the strategy high, ascending; if none does, those that raise it most. O(rules).
-[[nodiscard]] std::vector<program::RuleId> raisers(const program::Program& program, program::CellId cell);
+/// The rules that make the satellite or the strategy high, ascending; if none does, those that raise it most, if that is above `above`.
+/// O(rules).
+[[nodiscard]] std::vector<program::RuleId> raisers(const program::Program& program, program::CellId cell, float above = -1.0f);
 
 /// The question. With nothing set, it asks about the tick as a whole: all rules that fired, and the strategy that ran.
 struct Question {
