@@ -25,19 +25,19 @@ macro(kb_read_arguments caller)
   file(MAKE_DIRECTORY ${out})
 endmacro()
 
-# kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [FLEET] [OPTIONS option...])
+# kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [FLEET] [MAP] [OPTIONS option...])
 #
 # A static library NAME from a knowledge base: FILE.kb is compiled to FILE.kb.h and FILE.kb.cc, which a program includes as
 #   #include "FILE.kb.h"
 # (or "NAME.kb/FILE.kb.h", where it has several of one name) and uses as `ns::Mind`; ns may be a::b, and is by default the stem of
 # FILE. No two of one program have the same. The library is made again when FILE.kb or any file
 # that it imports has changed, also indirectly. FLEET adds FILE.kb.fleet.h and FILE.kb.fleet.cc, for many robots at once
-# (docs/fleets.md). LIBRARY is another folder for `std.*`; OPTIONS go to `kbc compile` as they
-# are, as in OPTIONS -Werror. Whoever links NAME into a shared library sets POSITION_INDEPENDENT_CODE on it.
+# (docs/fleets.md); MAP adds FILE.kb.map.h, the roads of its routes for Waymark::controllers (docs/controllers.md). LIBRARY is another
+# folder for `std.*`; OPTIONS go to `kbc compile` as they are, as in OPTIONS -Werror. Whoever links NAME into a shared library sets POSITION_INDEPENDENT_CODE on it.
 #
 # Works in Waymark's own tree, in a project that has it as a subdirectory, and in one that has called find_package(Waymark).
 function(kb_add_library name file)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "FLEET" "NAMESPACE;LIBRARY" "OPTIONS")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "FLEET;MAP" "NAMESPACE;LIBRARY" "OPTIONS")
   kb_read_arguments(kb_add_library)
   set(header ${out}/${stem}.kb.h)
   set(code ${out}/${stem}.kb.cc)
@@ -45,6 +45,10 @@ function(kb_add_library name file)
   if(arg_FLEET)
     list(APPEND options --fleet)
     list(APPEND made ${out}/${stem}.kb.fleet.h ${out}/${stem}.kb.fleet.cc)
+  endif()
+  if(arg_MAP)
+    list(APPEND options --map)
+    list(APPEND made ${out}/${stem}.kb.map.h)
   endif()
 
   set(namespace ${stem})
@@ -72,6 +76,9 @@ function(kb_add_library name file)
   # See runtime/math.h: the same floats from every compiler.
   target_compile_options(${name} PRIVATE -ffp-contract=off)
   target_link_libraries(${name} PUBLIC Waymark::runtime)
+  if(arg_MAP)
+    target_link_libraries(${name} PUBLIC Waymark::controllers)
+  endif()
   if(arg_FLEET)
     target_link_libraries(${name} PUBLIC Waymark::fleet)
     # The kernel reads itself several times: see fleet/widths.h.

@@ -14,6 +14,7 @@
 #include "potential.h"
 #include "round_obstacle.h"
 #include "spot.h"
+#include "text.h"
 #include "turns.h"
 
 namespace mts {
@@ -59,14 +60,6 @@ inline constexpr ControllerEntry kControllers[] = {
     {"stand", ControllerId::kStand, "stands", "nothing", false},
     {"stop", ControllerId::kStand, "stands", "nothing", false},
 };
-
-[[nodiscard]] constexpr bool same_text(const char* a, const char* b) noexcept {
-  while (*a != '\0' && *a == *b) {
-    ++a;
-    ++b;
-  }
-  return *a == *b;
-}
 
 /// The entry with this name; null if there is none. O(entries).
 [[nodiscard]] constexpr const ControllerEntry* find_controller(const char* name) noexcept {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "compiler/model/model.h"
 #include "compiler/program/program.h"
 #include "compiler/tables/tables.h"
 
@@ -32,6 +33,10 @@ struct FleetFiles {
 };
 [[nodiscard]] Cpp cpp_fleet(const program::Program& program, const tables::Tables& tables, const CppOptions& options,
                             const FleetFiles& files);
+
+/// The header of the roads that legs lead along, and of the road of the present leg (controllers/road_map.h). It includes
+/// `options.header_name`. Empty if no leg leads along a road, or a map does not say where its roads lie. Same program, same bytes.
+[[nodiscard]] std::string cpp_map(const model::Model& model, const program::Program& program, const tables::Tables& tables, const CppOptions& options);
 
 [[nodiscard]] Cpp cpp(const program::Program& program, const tables::Tables& tables, const CppOptions& options);
 

@@ -167,10 +167,11 @@ struct Map {
   [[nodiscard]] std::span<const Point> through(const MapRoad& road) const { return std::span(bends).subspan(road.first_bend, road.bends); }
 };
 
-/// A leg whose road has a limit, by its satellite.
-struct LegLimit {
+/// What a leg leads along, by its satellite.
+struct LegRoad {
   CellId leg = CellId::kNone;
-  float limit_m_per_s = 0.0f;
+  RowId road = RowId::kNone;    ///< kNone: the leg to the first landmark of a route, on whatever road the robot stands
+  float limit_m_per_s = 0.0f;   ///< how fast it may be driven; 0: no limit
 };
 
 /// A total function over finite sets.
@@ -263,7 +264,7 @@ struct Model {
   std::vector<Control> controls;
   std::vector<Table> tables;
   std::vector<Map> maps;
-  std::vector<LegLimit> leg_limits;
+  std::vector<LegRoad> leg_roads;             ///< of all legs, in order of their rows
   std::vector<Prototype> prototypes;
   std::vector<Sensor> sensors;
   std::vector<PlacedShape> placed_shapes;

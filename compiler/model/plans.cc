@@ -157,7 +157,7 @@ class Planner {
 
   /// Plans what to do if a leg is blocked while the robot is on it: back, and on by another way. Only on two-way roads.
   void plan_retreat(RelationId relation, std::size_t j) {
-    if (!both_ways(j) || draft_.exhausted) return;
+    if (way_opposite(j) == nullptr || draft_.exhausted) return;
     const auto way = way_back(draft_.legs[legs_[j]].from, j, draft_.roads[draft_.legs[legs_[j]].road].road);
     if (!way || !count(way->roads.size() + 2)) return;
     const std::string_view name = draft_.routes[route_].name;
@@ -170,16 +170,19 @@ class Planner {
   /// If no way leads round the last road: back to where it begins, and over it again.
   void plan_recheck(RelationId relation) {
     const std::size_t j = legs_.size() - 1;
-    if (last_retreats_ || draft_.legs[legs_[j]].road == kNone32 || !both_ways(j) || draft_.exhausted || !count(2)) return;
+    if (last_retreats_ || draft_.legs[legs_[j]].road == kNone32 || !way_opposite(j) || draft_.exhausted || !count(2)) return;
     const std::uint32_t back = add_back(j);
     link_legs(draft_, back, legs_[j]);
     add_way_back(relation, fmt::format("{}.recheck", draft_.routes[route_].name), j, back);
   }
 
-  [[nodiscard]] bool both_ways(std::size_t j) const {
+  /// The road of leg `j` in the other direction; null if it is one-way.
+  [[nodiscard]] const DirectedRoad* way_opposite(std::size_t j) const {
     const LegInfo& leg = draft_.legs[legs_[j]];
-    const auto& back_roads = draft_.landmarks[leg.to].out;
-    return std::any_of(back_roads.begin(), back_roads.end(), [&](std::uint32_t id) { return draft_.roads[id].road == draft_.roads[leg.road].road; });
+    for (const std::uint32_t id : draft_.landmarks[leg.to].out) {
+      if (id != leg.road && draft_.roads[id].road == draft_.roads[leg.road].road) return &draft_.roads[id];
+    }
+    return nullptr;
   }
 
   void add_way_back(RelationId relation, const std::string& name, std::size_t j, std::uint32_t back) {
@@ -188,7 +191,7 @@ class Planner {
     set_field(draft_, row, "back", draft_.legs[back].row);
   }
 
-  /// Adds the leg that leads back over leg `j`. The caller links the leg that follows it.
+  /// Adds the leg that leads back over leg `j`, whose road can be driven both ways. The caller links the leg that follows it.
   std::uint32_t add_back(std::size_t j) {
     const LegInfo leg = draft_.legs[legs_[j]];
     const std::string_view name = draft_.routes[route_].name;
@@ -200,7 +203,8 @@ class Planner {
                        fmt::format("{}.back{}:{}>{}", name, j, landmark_name(draft_, leg.to), landmark_name(draft_, leg.from)), at_);
     set_field(draft_, back.row, "from", draft_.landmarks[leg.to].row);
     set_field(draft_, back.row, "to", draft_.landmarks[leg.from].row);
-    limit_leg(draft_, back.row, draft_.roads[leg.road].limit_m_per_s);
+    const DirectedRoad& opposite = *way_opposite(j);
+    lay_leg(draft_, back.row, opposite.row, opposite.limit_m_per_s);
     draft_.legs.push_back(back);
     return static_cast<std::uint32_t>(draft_.legs.size() - 1);
   }

@@ -191,7 +191,7 @@ class RouteReader {
     leg.row = add_row(draft_, *find_relation(draft_, "Leg"), fmt::format("{}.{}:{}", route.name, draft_.first_leg, landmark_name(draft_, leg.to)),
                       route_.stops.front().landmark.span);
     set_field(draft_, leg.row, "to", draft_.landmarks[leg.to].row);
-    limit_leg(draft_, leg.row, draft_.lowest_limit_m_per_s);   // nobody knows on which road it is
+    lay_leg(draft_, leg.row, RowId::kNone, draft_.lowest_limit_m_per_s);   // nobody knows on which road it is
     draft_.legs.push_back(leg);
     return static_cast<std::uint32_t>(draft_.legs.size() - 1);
   }
@@ -246,16 +246,16 @@ std::uint32_t add_leg(Draft& draft, std::uint32_t route, std::string name, std::
   set_field(draft, leg.row, "approach", draft.value(draft.exits, along.approach));
   set_field(draft, leg.row, "by", draft.value(draft.methods, along.by));
   set_field(draft, leg.row, "road", along.row);
-  limit_leg(draft, leg.row, along.limit_m_per_s);
+  lay_leg(draft, leg.row, along.row, along.limit_m_per_s);
   const auto id = static_cast<std::uint32_t>(draft.legs.size());
   draft.legs.push_back(leg);
   draft.legs_from[along.from].push_back(id);
   return id;
 }
 
-void limit_leg(Draft& draft, RowId leg, float limit_m_per_s) {
+void lay_leg(Draft& draft, RowId leg, RowId road, float limit_m_per_s) {
   const CellId cell = draft.model[leg].cell;
-  if (cell != CellId::kNone && limit_m_per_s > 0.0f && std::isfinite(limit_m_per_s)) draft.model.leg_limits.push_back({cell, limit_m_per_s});
+  if (cell != CellId::kNone) draft.model.leg_roads.push_back({cell, road, std::isfinite(limit_m_per_s) ? limit_m_per_s : 0.0f});
 }
 
 void link_legs(Draft& draft, std::uint32_t leg, std::uint32_t next) {

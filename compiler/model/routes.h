@@ -19,8 +19,8 @@ namespace kb::model {
 
 /// A new leg of `route` along a directed road.
 std::uint32_t add_leg(Draft& draft, std::uint32_t route, std::string name, std::uint32_t road, source::Span at);
-/// Notes the speed limit of a leg; 0 and infinity are none.
-void limit_leg(Draft& draft, RowId leg, float limit_m_per_s);
+/// Notes what a leg leads along: a row of `Road`, or kNone. Limits of 0 and infinity are none.
+void lay_leg(Draft& draft, RowId leg, RowId road, float limit_m_per_s);
 /// Makes `next` follow `leg`.
 void link_legs(Draft& draft, std::uint32_t leg, std::uint32_t next);
 /// Adds legs along `roads`, named `name.0:A>B` and so on, after which the route continues as after the leg `target`. Returns the

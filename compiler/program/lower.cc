@@ -30,7 +30,9 @@ class Lowering {
     lower_rules();
     append_control_rules(program_, pool_);
     for (const model::Control& control : model_.controls) lower_control(control);
-    for (const model::LegLimit& limit : model_.leg_limits) program_.limits.push_back({cell(limit.leg), limit.limit_m_per_s});
+    for (const model::LegRoad& leg : model_.leg_roads) {
+      if (leg.limit_m_per_s > 0.0f) program_.limits.push_back({cell(leg.leg), leg.limit_m_per_s});
+    }
     program_.perception = lower_perception(model_, cell_of_);
     program_.fuzzy = model_.fuzzy;
     return std::move(program_);

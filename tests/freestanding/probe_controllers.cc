@@ -1,5 +1,6 @@
 // Uses every controller, so that all of them are compiled without a standard library.
 #include <waymark/controllers/any_controller.h>
+#include <waymark/controllers/road_map.h>
 #include <waymark/controllers/similarity.h>
 #include <waymark/controllers/steady_ranges.h>
 
@@ -19,7 +20,10 @@ extern "C" int freestanding_probe_controllers(const mts::Senses* senses, const m
   if (side != nullptr) static_cast<void>(controller.set("side", mts::number_of_word(*side, "left")));
   const mts::Setting setting = controller.set("speed", value);
   const mts::Senses small = as.in(*senses);
-  controller.start(as.in(*task), small);
+  mts::RoadsDriven roads;
+  const mts::MapRoad road{"", "", "", "", name, value, task->course, task->pieces};
+  roads.follow(&road);
+  controller.start(as.in(value > 1.0f ? *task : mts::task_along(roads, {})), small);
   const mts::Motion motion = as.out(controller.step(steady.step(small, 0.01f), as.in(0.01f, "s")));
   return static_cast<int>(motion.speed_m_s + motion.turn_rad_s) + static_cast<int>(setting) + (controller.done() || controller.lost());
 }

@@ -1,6 +1,7 @@
 // kbc compile: a knowledge base as C++ (or JSON, or an image).
 #include <malloc.h>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +13,7 @@
 
 #include "compiler/emit/emit.h"
 #include "compiler/emit/names.h"
+#include "compiler/model/ground.h"
 #include "compiler/tables/compact.h"
 #include "compiler/tables/fleet.h"
 #include "tools/kbc/named_files.h"
@@ -34,13 +36,16 @@ struct CompileOptions {
   std::string form = "cpp";
   bool compact = false;
   bool fleet = false;
+  bool map = false;
 };
 
 std::vector<std::string> output_endings(const CompileOptions& options) {
   if (options.form == "json") return {".json"};
   if (options.form == "image") return {".kbt"};
-  if (!options.fleet) return {".h", ".cc"};
-  return {".h", ".cc", ".fleet.h", ".fleet.cc"};
+  std::vector<std::string> endings = {".h", ".cc"};
+  if (options.fleet) endings.insert(endings.end(), {".fleet.h", ".fleet.cc"});
+  if (options.map) endings.emplace_back(".map.h");
+  return endings;
 }
 
 // A prefix that already has the ending of an output is the name of the output: the ending is not added again.
@@ -156,11 +161,14 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
   emit::Cpp cpp = emit::cpp(compiled.program, compiled.tables,
                             {.name_space = name_space, .header_name = file_name(0), .compact = options.compact});
   Files files = {{names[0], std::move(cpp.header)}, {names[1], std::move(cpp.source)}};
-  if (!options.fleet) return files;
-  emit::Cpp fleet = emit::cpp_fleet(compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(2)},
-                                    {.plain_header = file_name(0), .source_name = file_name(3)});
-  files.push_back({names[2], std::move(fleet.header)});
-  files.push_back({names[3], std::move(fleet.source)});
+  if (options.fleet) {
+    emit::Cpp fleet = emit::cpp_fleet(compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(2)},
+                                      {.plain_header = file_name(0), .source_name = file_name(3)});
+    files.push_back({names[2], std::move(fleet.header)});
+    files.push_back({names[3], std::move(fleet.source)});
+  }
+  if (options.map) files.push_back({names.back(), emit::cpp_map(compiled.model, compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(0)})});
+  if (files.back().bytes.empty()) session.report(Kind::kGraphNothing, {options.file, fmt::format("route over a {}", model::kGroundMap)});
   return files;
 }
 
@@ -196,7 +204,7 @@ int compile(const CompileOptions& options, Session& session) {
   const std::string name_space = options.form == "cpp" ? choose_namespace(options, session) : "-";
   const std::vector<std::string> names = output_names(options);
   if (name_space.empty() || !can_name_files(options, names, session)) return kErrors;
-  auto compiled = session.compile(options.file, driver::Stage::kTables, true);
+  auto compiled = session.compile(options.file, driver::Stage::kTables, true, options.map);
   if (!compiled->ok()) return kErrors;
   auto messages = session.diagnostics(compiled->sources);
   sim::check_controls(compiled->program, messages);
@@ -204,7 +212,7 @@ int compile(const CompileOptions& options, Session& session) {
   if (!options.depfile.empty() && !can_list_files(names, session)) return kErrors;
   if (!make_folder_of(names[0], session)) return kErrors;
   Files files = emit_files(options, *compiled, names, name_space, session);
-  if (files.front().bytes.empty()) return kErrors;
+  if (files.back().bytes.empty()) return kErrors;
   if (options.form == "cpp") diagnose_hidden(options, files.front(), session);
   if (!options.depfile.empty()) files.push_back({options.depfile, print_depfile(files, session.files_read())});
   const bool large = compiled->program.rules.size() >= tables::kWorthAThread;
@@ -229,14 +237,15 @@ Run setup_compile(CLI::App& app) {
       ->type_name("FILE");
   auto* compact = app.add_flag("--compact", options->compact, "For small microcontrollers: about a third of the tables and of the memory, more instructions");
   app.add_flag("--fleet", options->fleet, "Also PREFIX.fleet.h and PREFIX.fleet.cc, for many robots at once")->excludes(compact);
+  app.add_flag("--map", options->map, "Also PREFIX.map.h, the roads that routes lead along, for the tasks of controllers");
   app.add_option("--emit", options->form, "What to write: C++, the program as JSON, or an image (.kbt) that a running robot can take")
       ->check(CLI::IsMember({"cpp", "json", "image"}))
       ->capture_default_str();
   app.callback([options, &app] {
     if (const std::string twice = named_twice(app, output_names(*options)); !twice.empty()) throw CLI::ValidationError(twice);
     const bool cpp = options->form == "cpp";
-    if (!cpp && (options->compact || options->fleet)) {
-      throw CLI::ValidationError(options->compact ? "--compact" : "--fleet", "this is a form of C++, and --emit " + options->form + " writes none");
+    if (!cpp && (options->compact || options->fleet || options->map)) {
+      throw CLI::ValidationError(options->compact ? "--compact" : options->fleet ? "--fleet" : "--map", "this is a form of C++, and --emit " + options->form + " writes none");
     }
     const std::string last = std::filesystem::path(options->prefix).filename().string();
     if (!options->prefix.empty() && (last.empty() || last == "." || last == "..")) {

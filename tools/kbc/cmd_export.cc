@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
+#include "compiler/model/ground.h"
 #include "tools/kbc/fll/fll.h"
 #include "tools/kbc/find_named.h"
 #include "tools/kbc/layout/layout.h"
@@ -28,28 +30,24 @@ std::optional<std::string> export_fuzzy(const ExportOptions& options, const driv
 /// if its relations are the user's own and do not say where things lie.
 std::optional<layout::Layout> layout_of(const model::Model& model, const model::Map& map, const ExportOptions& options, diagnostics::Diagnostics& diagnostics) {
   layout::Layout made{.name = std::filesystem::path(options.file).stem().string(), .places = {}, .ways = {}};
-  bool whole = true;
+  auto roads = model::ground_roads(model, map);
   for (const model::RowId id : map.landmarks) {
     const model::Point* at = model.point_in(model[id], "at");
-    whole = whole && at != nullptr;
-    if (whole) made.places.push_back({std::string(model[id].name), "", {at->x, at->y}, {}});
+    if (at == nullptr) roads.reset();
+    else made.places.push_back({std::string(model[id].name), "", {at->x, at->y}, {}});
   }
-  for (const model::MapRoad& road : map.roads) {
-    const model::Row& row = model[road.row];
-    const auto* from = std::get_if<model::RowId>(model.field(row, "from"));
-    const auto* to = std::get_if<model::RowId>(model.field(row, "to"));
-    const std::string_view exit = model.member_in(row, "exit");
-    whole = whole && from != nullptr && to != nullptr && !exit.empty();
-    if (!whole) break;
-    layout::Way way{.id = fmt::format("{}.{}", model[*from].name, exit), .from = std::string(model[*from].name), .to = std::string(model[*to].name), .through = {}, .from_span = {}, .to_span = {}};
-    for (const model::Point& bend : map.through(road)) way.through.push_back({bend.x, bend.y});
+  if (!roads) {
+    diagnostics.report(diagnostics::Kind::kGraphNothing, {}, {options.file, model::kGroundMap});
+    return std::nullopt;
+  }
+  for (const model::GroundRoad& road : *roads) {
+    layout::Way way{.id = fmt::format("{}.{}", road.from, road.exit), .from = std::string(road.from), .to = std::string(road.to), .through = {}, .from_span = {}, .to_span = {}};
+    for (const model::Point& bend : std::span(road.course).subspan(1, road.course.size() - 2)) way.through.push_back({bend.x, bend.y});
     way.limit_m_s = static_cast<double>(road.limit_m_per_s);
-    way.method = model.member_in(row, "by");
+    way.method = road.by;
     made.ways.push_back(std::move(way));
   }
-  if (whole) return made;
-  diagnostics.report(diagnostics::Kind::kGraphNothing, {}, {options.file, "map whose landmarks have a place `at` and whose roads have `from`, `to` and `exit`"});
-  return std::nullopt;
+  return made;
 }
 
 std::optional<std::string> export_map(const ExportOptions& options, const driver::Compilation& compiled, diagnostics::Diagnostics& diagnostics) {

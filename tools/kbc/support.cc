@@ -204,28 +204,32 @@ bool Session::refuses(std::string_view path, diagnostics::Diagnostics messages) 
   return messages.failed();
 }
 
-driver::Options Session::how_to_compile(driver::Stage until, bool analyse, std::size_t first_leg) const {
-  return {.library = library_, .warnings = warnings_, .known = sim::controller_arguments(), .until = until, .analyse = analyse, .keep_model = !analyse, .first_leg = first_leg};
+driver::Options Session::how_to_compile(driver::Stage until, bool analyse) const {
+  return {.library = library_, .warnings = warnings_, .known = sim::controller_arguments(), .until = until, .analyse = analyse, .keep_model = !analyse};
 }
 
-std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, driver::Stage until, bool analyse) {
-  return compile_from(files_, path, until, analyse);
+std::unique_ptr<driver::Compilation> Session::compile(std::string_view path, driver::Stage until, bool analyse, bool keep_model) {
+  driver::Options how = how_to_compile(until, analyse);
+  how.keep_model = how.keep_model || keep_model;
+  return compile_from(files_, path, how);
 }
 
 std::unique_ptr<driver::Compilation> Session::compile_text(std::string_view path, std::string_view text, const source::FileSystem& files, std::size_t first_leg) {
-  return compile_from(source::OneFileMore(path, text, files), path, driver::Stage::kTables, false, first_leg);
+  driver::Options how = how_to_compile(driver::Stage::kTables, false);
+  how.first_leg = first_leg;
+  return compile_from(source::OneFileMore(path, text, files), path, how);
 }
 
-std::unique_ptr<driver::Compilation> Session::compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse, std::size_t first_leg) {
+std::unique_ptr<driver::Compilation> Session::compile_from(const source::FileSystem& files, std::string_view path, const driver::Options& how) {
   if (refuses(path, diagnostics(no_sources_))) return failed_compilation();
   const auto consumer = [](const source::Sources& sources, void* self) { return static_cast<Session*>(self)->make_consumer(sources); };
-  return driver::compile(path, files, how_to_compile(until, analyse, first_leg), consumer, this);
+  return driver::compile(path, files, how, consumer, this);
 }
 
 std::unique_ptr<driver::Compilation> Session::compile_unheard(std::string_view path, driver::Stage until, std::vector<Diagnostic>& unheard) const {
   diagnostics::Keeping keeping(unheard);
   if (refuses(path, {no_sources_, keeping, warnings_})) return failed_compilation();
-  return driver::compile(path, files_, how_to_compile(until, false, 0), diagnostics::Keeping::make, &unheard);
+  return driver::compile(path, files_, how_to_compile(until, false), diagnostics::Keeping::make, &unheard);
 }
 
 void Session::pass_on(const source::Sources& sources, const std::vector<Diagnostic>& unheard) {

@@ -68,9 +68,9 @@ class Session {
   [[nodiscard]] bool take_warning_options();
 
   /// Compiles `path` with the shared options, reporting as the user wishes. Never null. With `analyse` all messages
-  /// are given, and the model is freed afterwards.
+  /// are given, and the model is freed afterwards, unless it is kept.
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile(std::string_view path, driver::Stage until,
-                                                             bool analyse = false);
+                                                             bool analyse = false, bool keep_model = false);
   /// Like `compile`, without analysis; any thread may call it. Messages are collected in `unheard`, for `pass_on`.
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile_unheard(std::string_view path, driver::Stage until, std::vector<diagnostics::Diagnostic>& unheard) const;
   /// The same for a text that is in no file, under the name `path`; its imports are read from `files`. All forms, no analysis. `first_leg`:
@@ -137,10 +137,10 @@ class Session {
   void tell(std::string_view text);
   void flush_output();
   bool write_all_or_none(const std::vector<OutputFile>& files);
-  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_from(const source::FileSystem& files, std::string_view path, driver::Stage until, bool analyse, std::size_t first_leg = 0);
+  [[nodiscard]] std::unique_ptr<driver::Compilation> compile_from(const source::FileSystem& files, std::string_view path, const driver::Options& how);
   /// True (reported) if nothing can be compiled under this name, or with this library.
   [[nodiscard]] bool refuses(std::string_view path, diagnostics::Diagnostics messages) const;
-  [[nodiscard]] driver::Options how_to_compile(driver::Stage until, bool analyse, std::size_t first_leg) const;
+  [[nodiscard]] driver::Options how_to_compile(driver::Stage until, bool analyse) const;
   [[nodiscard]] std::optional<std::string> read_image_file(const std::string& path);
   [[nodiscard]] std::unique_ptr<diagnostics::Consumer> make_consumer(const source::Sources& sources);
   SharedOptions options_;

@@ -9,7 +9,7 @@
 #include "bumper.kb.h"
 #include "near.kb.h"
 #include "pace.kb.h"
-#include "route1.kb.h"
+#include "route1.kb.map.h"
 #include "senses.kb.h"
 
 static_assert(X == 7);
@@ -68,6 +68,25 @@ bool sees_and_brakes() {
   return true;
 }
 
+/// Told to set out, it comes to the first landmark of its route.
+bool knows_its_roads() {
+  route1::Mind mind;
+  route1::Facts facts;
+  mts::RoadsDriven roads;
+  const auto tick = [&] {
+    const bool drives = mind.tick(facts, mts::milliseconds(500)).drives();
+    roads.follow(route1::road_of_leg(mind));
+    return drives;
+  };
+  if (tick()) return false;
+  facts.Start1 = 0.9f;
+  static_cast<void>(tick());
+  if (roads.road() != nullptr) return false;
+  facts.LM5 = 0.9f;
+  static_cast<void>(tick());
+  return roads.road() != nullptr && mts::same_text(roads.road()->from, "LM5") && mts::task_along(roads, {}).pieces == 1 && mts::task_across(roads).exit_heading_rad > 3.14f;
+}
+
 }  // namespace
 
 int main() {
@@ -88,7 +107,5 @@ int main() {
                 static_cast<double>(wheels.speed_m_per_s));
     if (wheels.speed_m_per_s != now.speed) return 1;
   }
-  route1::Mind navigator;
-  route1::Facts view;
-  return navigator.tick(view, mts::milliseconds(500)).drives() ? 1 : 0;
+  return knows_its_roads() ? 0 : 1;
 }

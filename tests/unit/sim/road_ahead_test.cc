@@ -2,6 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <waymark/controllers/road_map.h>
+#include "compiler/model/ground.h"
+#include "sim/robot_body.h"
+#include "tests/unit/sim/laboratory.h"
+
 namespace kb::sim::testing {
 namespace {
 
@@ -82,6 +92,64 @@ TEST(RoadAhead, WhereItIsCountsFromTheLandmarkWhicheverWayItIsDriven) {
   is_at({8.0f, 8.0f, 1.5f}, 4.5, true);
   road.forget();
   EXPECT_FALSE(road.where({}));
+}
+
+/// The road as `kbc compile --map` emits it.
+mts::MapRoad emitted(const model::GroundRoad& road, std::vector<mts::Piece>& course) {
+  for (std::size_t i = 1; i < road.course.size(); ++i) {
+    const Spot piece{road.course[i].x - road.course[i - 1].x, road.course[i].y - road.course[i - 1].y};
+    course.push_back({static_cast<float>(heading(piece)), static_cast<float>(std::hypot(piece.x_m, piece.y_m))});
+  }
+  return {"", "", "", "", road.by == "open" ? "open" : "mark", mts::kInfinity, course.data(), static_cast<std::uint16_t>(course.size())};
+}
+
+// A program that has only the map asks of its controllers what the simulator asks of them.
+TEST(RoadAhead, TellsAtTheBeginningOfARoadWhatTheMapTellsAProgram) {
+  const auto yard = Laboratory::of_text(R"(
+import std.navigation
+import std.hall
+map Yard {
+    landmark Dock  at (0, 0)
+    landmark Arch  at (5, 0)
+    landmark Shelf at (8, 6)
+    landmark Store at (8, 12)
+    road Dock.E  -- Arch.W  by mark
+    road Arch.E  -- Shelf.S through (8, 0) by dist
+    road Shelf.N -- Store.S by open
+    road Dock.N  -- Store.W through (0, 9), (2, 12) by mark
+}
+)");
+  const model::Model& model = yard->compiled->model;
+  const auto roads = model::ground_roads(model, model.maps.front());
+  ASSERT_TRUE(roads);
+  const Floor floor(*yard->labyrinth);
+  for (const model::GroundRoad& road : *roads) {
+    const auto& memory = floor.memory(yard->labyrinth->by_name.at(std::string(road.from)));
+    const auto arm = std::find_if(memory->exits.begin(), memory->exits.end(), [&](const Memory::Exit& exit) { return exit.name == road.exit; });
+    ASSERT_NE(arm, memory->exits.end());
+    std::vector<mts::Piece> course;
+    const mts::MapRoad in_program = emitted(road, course);
+    mts::RoadsDriven roads_driven;
+    roads_driven.follow(&in_program);
+    const mts::Task task = mts::task_along(roads_driven, kRobot);
+    const float before_m = kRobot.line_ahead_m, heading_rad = course.front().heading_rad;
+    const mts::Place at{7.0f, 5.0f, heading_rad};
+    RoadAhead ahead;
+    ahead.enter(memory, static_cast<std::uint32_t>(arm - memory->exits.begin()), at, {-before_m * std::cos(heading_rad), -before_m * std::sin(heading_rad)});
+    mts::Task told;
+    ahead.tell(told, at, RoadAhead::Back::kToMiddle);
+    ASSERT_EQ(task.pieces, told.pieces) << road.from << "." << road.exit;
+    for (std::size_t i = 0; i < told.pieces; ++i) {
+      EXPECT_NEAR(task.course[i].heading_rad, told.course[i].heading_rad, 1e-4f);
+      EXPECT_NEAR(task.course[i].length_m, told.course[i].length_m, 1e-4f);
+    }
+    if (!task.in_hall) continue;
+    EXPECT_NEAR(task.in.x_m, told.in.x_m, 1e-4f);
+    EXPECT_NEAR(task.in.y_m, told.in.y_m, 1e-4f);
+    EXPECT_NEAR(task.out.x_m, told.out.x_m, 1e-4f);
+    EXPECT_NEAR(task.out.y_m, told.out.y_m, 1e-4f);
+    EXPECT_NEAR(task.out.heading_rad, told.out.heading_rad, 1e-4f);
+  }
 }
 
 }  // namespace

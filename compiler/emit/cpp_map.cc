@@ -1,0 +1,99 @@
+// The roads that legs lead along, as data for controllers/road_map.h.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "compiler/emit/cpp.h"
+#include "compiler/model/ground.h"
+
+namespace kb::emit {
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+using model::GroundRoad;
+
+constexpr double kShortestPiece_m = 0.01;
+
+/// The rows of the tables.
+struct Rows {
+  std::string pieces, roads, legs;
+  std::size_t piece_count = 0, leg_count = 0;
+};
+
+/// The roads that legs lead along, by their row; nothing if a map does not say where its roads lie.
+std::optional<std::map<model::RowId, GroundRoad>> roads_of_legs(const model::Model& model) {
+  std::map<model::RowId, GroundRoad> used;
+  for (const model::LegRoad& leg : model.leg_roads) {
+    if (leg.road != model::RowId::kNone) used.try_emplace(leg.road);
+  }
+  for (const model::Map& map : model.maps) {
+    auto roads = model::ground_roads(model, map);
+    if (!roads) return std::nullopt;
+    for (GroundRoad& road : *roads) {
+      if (const auto at = used.find(road.row); at != used.end()) at->second = std::move(road);
+    }
+  }
+  return used;
+}
+
+void add_road(const GroundRoad& road, Rows& rows) {
+  const std::size_t first = rows.piece_count;
+  model::Point here = road.course.front();
+  for (std::size_t i = 1; i < road.course.size(); ++i) {
+    const model::Point there = road.course[i];
+    const double x = there.x - here.x, y = there.y - here.y, length_m = std::hypot(x, y);
+    const bool only = i + 1 == road.course.size() && rows.piece_count == first;
+    if (length_m < kShortestPiece_m && !only) continue;
+    fmt::format_to(Out(rows.pieces), "      {{{}, {}}},  // {}.{}\n", float_literal(static_cast<float>(std::atan2(y, x))), float_literal(static_cast<float>(length_m)), road.from, road.exit);
+    ++rows.piece_count;
+    here = there;
+  }
+  const std::string limit = road.limit_m_per_s > 0.0f ? float_literal(road.limit_m_per_s) : "mts::kInfinity";
+  fmt::format_to(Out(rows.roads), "      {{\"{}\", \"{}\", \"{}\", \"{}\", \"{}\", {}, kPieces + {}, {}}},\n", road.from, road.exit, road.to, road.approach, road.by, limit, first, rows.piece_count - first);
+}
+
+Rows rows_of(const model::Model& model, const program::Program& program, const Names& names, const std::map<model::RowId, GroundRoad>& roads) {
+  Rows rows;
+  std::map<model::RowId, std::size_t> number;
+  for (const auto& [row, road] : roads) {
+    number.emplace(row, number.size());
+    add_road(road, rows);
+  }
+  std::unordered_map<std::string_view, std::size_t> satellites;
+  const auto cells = program.cells_of(program::CellKind::kSatellite);
+  for (std::size_t i = 0; i < cells.size(); ++i) satellites.emplace(cells[i].name, i);
+  for (const model::LegRoad& leg : model.leg_roads) {
+    const auto cell = satellites.find(model[leg.leg].name);
+    if (leg.road == model::RowId::kNone || cell == satellites.end()) continue;
+    fmt::format_to(Out(rows.legs), "      {{Satellite::{}, {}}},\n", names.satellites[cell->second], number.at(leg.road));
+    ++rows.leg_count;
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string cpp_map(const model::Model& model, const program::Program& program, const tables::Tables& tables, const CppOptions& options) {
+  const auto roads = roads_of_legs(model);
+  if (!roads || roads->empty()) return {};
+  const Rows rows = rows_of(model, program, make_names(program, tables), *roads);
+  const std::string body = fmt::format(
+      "/// The road that the robot's present leg leads along: the one that it is on, or, from the sign of a crossing on, the one by which it\n"
+      "/// leaves. Null on the way to the first landmark of a route, and while no route is driven. Reads up to {0} satellites.\n"
+      "[[nodiscard]] inline const mts::MapRoad* road_of_leg(const Mind& mind) noexcept {{\n"
+      "  static constexpr mts::Piece kPieces[] = {{   // heading in rad, length in m\n{1}  }};\n"
+      "  static constexpr mts::MapRoad kRoads[] = {{\n{2}  }};\n"
+      "  static constexpr struct {{\n    Satellite satellite;\n    std::uint32_t road;\n  }} kLegs[] = {{\n{3}  }};\n"
+      "  for (const auto& leg : kLegs) {{\n    if (mind.high(leg.satellite)) return &kRoads[leg.road];\n  }}\n  return nullptr;\n}}\n\n",
+      rows.leg_count, rows.pieces, rows.roads, rows.legs);
+  const std::string version = version_name(body, "");
+  return fmt::format("{0}#pragma once\n\n#include <cstdint>\n\n#include <waymark/controllers/road_map.h>\n\n#include \"{1}\"\n\n"
+                     "namespace {2} {{\ninline namespace {3} {{\n\n{4}}}  // namespace {3}\n}}  // namespace {2}\n",
+                     kGenerated, options.header_name, options.name_space, version, body);
+}
+
+}  // namespace kb::emit

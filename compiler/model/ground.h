@@ -1,0 +1,27 @@
+// The roads of a map as they lie on the ground: for what writes maps for others.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "compiler/model/model.h"
+
+namespace kb::model {
+
+/// A road in one direction. Names are in `Model::texts`.
+struct GroundRoad {
+  RowId row = RowId::kNone;
+  std::string_view from, to;             ///< landmarks
+  std::string_view exit, approach, by;   ///< `approach` and `by` are empty if its relation has no such field
+  std::vector<Point> course;             ///< the place of `from`, the road's bends, the place of `to`
+  float limit_m_per_s = 0.0f;            ///< 0: none
+};
+
+/// The roads of the map, in its order. Nothing if its relations are the user's own and do not say where things lie: landmarks need `at`,
+/// roads `from`, `to` and `exit`. Linear in the map.
+[[nodiscard]] std::optional<std::vector<GroundRoad>> ground_roads(const Model& model, const Map& map);
+/// What such a map has, for messages: "`{file}` has no {kGroundMap}".
+inline constexpr std::string_view kGroundMap = "map whose landmarks have a place `at` and whose roads have `from`, `to` and `exit`";
+
+}  // namespace kb::model

@@ -1,0 +1,96 @@
+// The map in a program: what `kbc compile --map` writes of the roads that routes lead along, and the tasks that follow from it.
+//
+//   road_of_leg(mind) -> MapRoad -> RoadsDriven --task_across--> Task of the crossing before the road
+//                                               --task_along---> Task of the road
+//
+// `road_of_leg` is in the generated header. The leg changes where the sign of the road's first landmark is read, so while the robot
+// crosses, it tells the road by which it leaves.
+#pragma once
+
+#include "angles.h"
+#include "body.h"
+#include "senses.h"
+#include "text.h"
+
+namespace mts {
+
+/// A road in one direction, from the middle of one crossing to the middle of the next, as the knowledge base has it. Static data.
+struct MapRoad {
+  const char* from;        ///< the landmark that it leaves, by its side `exit`: "LM5", "S"
+  const char* exit;
+  const char* to;          ///< the landmark that it reaches, at its side `approach`; "" if the knowledge base has no such field
+  const char* approach;
+  const char* by;          ///< how it is driven: "mark"; "" if the knowledge base does not say
+  float limit_m_per_s;     ///< the fastest that it may be driven; infinity: no limit
+  const Piece* course;     ///< at least one; no piece is shorter than 1 cm, unless it is the only one
+  std::uint16_t pieces;
+};
+
+/// Whether the road leads across a hall: `by open`, as `std.hall` calls it.
+[[nodiscard]] constexpr bool crosses_hall(const MapRoad& road) noexcept { return same_text(road.by, "open"); }
+
+/// Keeps the road on which the robot came to a crossing. Owned by the caller.
+class RoadsDriven {
+ public:
+  /// Call it after each tick of the mind, with what `road_of_leg` says. A leg that another one replaces before it was driven, for its road is
+  /// closed, leaves `came` as it is.
+  constexpr void follow(const MapRoad* road) noexcept {
+    if (road == nullptr) came_ = nullptr;
+    else if (road_ != nullptr && road != road_ && same_text(road_->to, road->from)) came_ = road_;
+    else if (came_ != nullptr && !same_text(came_->to, road->from)) came_ = nullptr;
+    road_ = road;
+  }
+  /// The road that the robot is on or, at a crossing, by which it leaves; null: unknown.
+  [[nodiscard]] constexpr const MapRoad* road() const noexcept { return road_; }
+  /// The road on which it came to where `road` begins; null: unknown.
+  [[nodiscard]] constexpr const MapRoad* came() const noexcept { return came_; }
+
+ private:
+  const MapRoad *road_ = nullptr, *came_ = nullptr;
+};
+
+/// What to ask of a controller that drives `roads.road()` from its beginning: its course from the robot's centre, whose line sensors are on the stop
+/// line out, to the stop line in. Crossings are taken to be as large as `body` says. A robot that begins farther on, since it
+/// was set down there or has turned back, is `driven_m` past that beginning. Pieces beyond the eighth are left out, and a road shorter
+/// than its crossings has none, nor has an unknown one: the controllers then follow line and walls, or hold the heading in which they begin.
+/// O(pieces).
+[[nodiscard]] constexpr Task task_along(const RoadsDriven& roads, const Body& body, float driven_m = 0.0f) noexcept {
+  Task task;
+  if (roads.road() == nullptr) return task;
+  const MapRoad& road = *roads.road();
+  float length_m = 0.0f;
+  for (std::size_t i = 0; i < road.pieces; ++i) length_m += road.course[i].length_m;
+  const float half_m = 0.5f * body.crossing_m;
+  const float from_m = half_m - body.line_ahead_m + greatest(driven_m, 0.0f), to_m = length_m - half_m;
+  float passed_m = 0.0f, x_m = 0.0f, y_m = 0.0f;
+  for (std::size_t i = 0; i < road.pieces && task.pieces < kLongestCourse; ++i) {
+    const Piece& piece = road.course[i];
+    const float left_m = least(passed_m + piece.length_m, to_m) - greatest(passed_m, from_m);
+    passed_m += piece.length_m;
+    if (!(left_m >= 0.01f)) continue;
+    task.course[task.pieces++] = {piece.heading_rad, left_m};
+    x_m += left_m * cosine(piece.heading_rad);
+    y_m += left_m * sine(piece.heading_rad);
+  }
+  task.in_hall = crosses_hall(road) && task.pieces > 0;
+  if (!task.in_hall) return task;
+  const float in_rad = road.course[0].heading_rad, to_line_m = body.line_ahead_m - greatest(driven_m, 0.0f);
+  task.in = {to_line_m * cosine(in_rad), to_line_m * sine(in_rad), in_rad};
+  task.out = {x_m, y_m, road.course[road.pieces - 1].heading_rad};
+  return task;
+}
+
+/// What to ask of a controller that drives over the crossing at which `roads.road()` begins. `turn` is the control line's business. Nothing if
+/// the road is unknown: rules of the standard library cross only where a leg begins.
+[[nodiscard]] constexpr Task task_across(const RoadsDriven& roads) noexcept {
+  Task task;
+  const MapRoad *next = roads.road(), *came = roads.came();
+  if (next == nullptr) return task;
+  task.exit_heading_rad = next->course[0].heading_rad;
+  if (came == nullptr) return task;
+  task.entry_heading_rad = came->course[came->pieces - 1].heading_rad;
+  task.entry_known = true;
+  return task;
+}
+
+}  // namespace mts
