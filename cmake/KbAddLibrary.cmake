@@ -3,7 +3,27 @@
 cmake_policy(PUSH)
 cmake_policy(SET CMP0116 NEW)
 
-# What both functions below make of `name`, `file` and their arguments: source, stem, options, and the folder `out`.
+# A file that changes with the bytes of an installed kbc, as they are when CMake runs. Packages keep the time of their making, so by
+# times nothing would be compiled again after an upgrade. Empty where kbc is built in this tree.
+function(kb_stamp_of_kbc out_var)
+  get_target_property(imported Waymark::kbc IMPORTED)
+  set(stamp "")
+  if(imported)
+    set(stamp ${CMAKE_BINARY_DIR}/Waymark/kbc.stamp)
+    get_property(made GLOBAL PROPERTY kb_stamp_made)
+    get_target_property(program Waymark::kbc LOCATION)
+    if(NOT made AND EXISTS "${program}")
+      file(SHA256 "${program}" bytes)
+      file(GENERATE OUTPUT ${stamp} CONTENT "${bytes}\n")
+      set_property(GLOBAL PROPERTY kb_stamp_made TRUE)
+    elseif(NOT made)
+      set(stamp "")
+    endif()
+  endif()
+  set(${out_var} ${stamp} PARENT_SCOPE)
+endfunction()
+
+# What both functions below make of `name`, `file` and their arguments: source, stem, options, stamp, and the folder `out`.
 macro(kb_read_arguments caller)
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "${caller}: what is `${arg_UNPARSED_ARGUMENTS}`?")
@@ -14,6 +34,11 @@ macro(kb_read_arguments caller)
   get_filename_component(source ${file} ABSOLUTE)
   get_filename_component(stem ${file} NAME_WLE)
   set(options ${arg_OPTIONS})
+  foreach(ours --namespace --emit --output -o --out --out-dir --depfile --fleet --map)   # what CMake has to know as well
+    if("${ours}" IN_LIST options)
+      message(FATAL_ERROR "${caller}: OPTIONS cannot take ${ours}; NAMESPACE, FLEET, MAP and kb_add_image do")
+    endif()
+  endforeach()
   if(arg_LIBRARY)
     get_filename_component(library ${arg_LIBRARY} ABSOLUTE)
     list(APPEND options --library ${library})
@@ -23,6 +48,7 @@ macro(kb_read_arguments caller)
     message(FATAL_ERROR "${caller}: ${out} is to be a folder, and is a file: build in a folder of its own (cmake -B build), or give the target another name")
   endif()
   file(MAKE_DIRECTORY ${out})
+  kb_stamp_of_kbc(stamp)
 endmacro()
 
 # kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [FLEET] [MAP] [OPTIONS option...])
@@ -60,7 +86,7 @@ function(kb_add_library name file)
   add_custom_command(
     OUTPUT ${made}
     COMMAND Waymark::kbc compile ${source} -o ${out}/${stem}.kb --depfile ${out}/${stem}.d ${options}
-    DEPENDS ${source} Waymark::kbc
+    DEPENDS ${source} ${stamp} Waymark::kbc
     DEPFILE ${out}/${stem}.d
     COMMENT "Compiling the knowledge base ${file}"
     VERBATIM)
@@ -98,7 +124,7 @@ function(kb_add_image name file)
   add_custom_command(
     OUTPUT ${image}
     COMMAND Waymark::kbc compile ${source} --emit image -o ${out}/${stem} --depfile ${image}.d ${options}
-    DEPENDS ${source} Waymark::kbc
+    DEPENDS ${source} ${stamp} Waymark::kbc
     DEPFILE ${image}.d
     COMMENT "Compiling the image of ${file}"
     VERBATIM)

@@ -63,9 +63,9 @@ class Fleet {
   using Fact = typename K::Fact;
   using Satellite = typename K::Satellite;
   using Strategy = typename K::Strategy;
-  static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again");
+  static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again (with CMake: run cmake, then build)");
   static_assert(requires { requires FleetForm<K>::kAbi == kFleetAbi; },
-                "this fleet was compiled for another version of the runtime: compile it again");
+                "this fleet was compiled for another version of the runtime: compile it again (with CMake: run cmake, then build)");
 
   /// Puts all robots in the state of start-up, with all facts 0. They share one clock and start together. Memory: `bytes()`.
   explicit Fleet(std::size_t robots, FleetOptions options = {});

@@ -26,7 +26,7 @@ class CompactMind {
   using State = StateOf<K>;
   using Facts = typename K::Facts;
 
-  static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again");
+  static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again (with CMake: run cmake, then build)");
 
   CompactMind() { reset(); }
 

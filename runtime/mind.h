@@ -253,7 +253,7 @@ class Mind {
   using State = StateOf<K>;
   using Facts = typename K::Facts;
 
-  static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again");
+  static_assert(K::kAbi == kAbi, "this knowledge base was compiled for another version of the runtime: compile it again (with CMake: run cmake, then build)");
 
   Mind() { reset(); }
 

@@ -304,7 +304,7 @@ class Perception {
   using Facts = typename Knowledge::Facts;
   using Readings = typename P::Readings;
 
-  static_assert(P::kAbi == kAbi, "this perception was compiled for another version of the runtime: compile it again");
+  static_assert(P::kAbi == kAbi, "this perception was compiled for another version of the runtime: compile it again (with CMake: run cmake, then build)");
 
   Perception() { reset(); }
 

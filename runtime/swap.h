@@ -24,7 +24,7 @@ namespace mts {
 enum class Loss : std::uint8_t {
   kFact,       ///< was known or seen; `value` is its certainty
   kSatellite,  ///< was not at its initial value; `value` is what it had
-  kStrategy,   ///< was active or held
+  kStrategy,   ///< was active, drove or was held
   kRule,       ///< had fired and its condition held: one that does the same under another name fires again
   kTimer,      ///< was running (`value` 0) or over (1); `name` is its level's
 };
@@ -195,7 +195,7 @@ class Transplant {
         },
         [&](std::uint32_t x) {
           const float value = o_.cf[from.facts + from.satellites + x];
-          if (value > 0.0f || o_.held == x + 1u) tell(lost, Loss::kStrategy, old_.name(ImageKind::kStrategy, x), value);
+          if (value > 0.0f || o_.strategy == x + 1u || o_.held == x + 1u) tell(lost, Loss::kStrategy, old_.name(ImageKind::kStrategy, x), value);
         });
     if (o_.strategy != 0 && s_.strategy == 0) {   // the strategy that drove no longer exists
       if (s_.status == s_.driving) s_.status = Status::kNoStrategy;

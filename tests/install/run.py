@@ -65,6 +65,19 @@ def build_with_cmake(options, prefix, scratch, generator):
     run(cmake, "--build", build, "--target", "bumper_mind" if whole else "bumper_image")   # all programs would tell nothing more
     with open(made[2] if whole else image, "rb") as file:
         expect(bell.encode() in file.read(), f"{generator}: a change in an imported file compiles the knowledge base again")
+    upgrade(options, prefix, build, image, generator)
+
+
+def upgrade(options, prefix, build, image, generator):
+    """Another kbc that is as old as the first one, as packages have it: they keep the time of their making."""
+    kbc = os.path.join(prefix, "bin", "kbc")
+    then, before = os.stat(kbc).st_mtime_ns, os.stat(image).st_mtime_ns
+    with open(kbc, "ab") as file:
+        file.write(b"\0")
+    os.utime(kbc, ns=(then, then))
+    run(options.cmake, "-S", os.path.join(os.path.dirname(build), "project"), "-B", build)
+    run(options.cmake, "--build", build, "--target", "bumper_image")
+    expect(os.stat(image).st_mtime_ns != before, f"{generator}: after an upgrade of the package, cmake compiles again")
 
 
 def hand_on(options, prefix, scratch, targets):

@@ -83,6 +83,13 @@ std::string print_drivers(std::string_view strategy, const Driver& old, const Dr
   return fmt::format("{} drives otherwise: {} instead of {}\n", strategy, now.call, old.call);
 }
 
+/// Says what could not be compared. An image may run on the robot, whose program has controllers and map of its own.
+void show_uncompared(const driver::Compilation& before, const driver::Compilation& after, const DiffOptions& options, Session& session) {
+  if (!before.image && !after.image) return;
+  if (options.json) session.print("{\"not_compared\":[\"controllers\",\"maps\"]}\n");
+  else session.print(fmt::format("controllers and maps are not compared: {} is an image, which has none\n", before.image ? options.before : options.after));
+}
+
 /// Shows strategies that another controller drives, or none in one of the two: the same decision may then drive differently. Images do not
 /// say what drives. Strategies of only one are told of already.
 void show_drivers(const driver::Compilation& before, const driver::Compilation& after, const trace::DecisionDiffer& differ, const DiffOptions& options, Session& session) {
@@ -157,6 +164,7 @@ int diff(const DiffOptions& options, Session& session) {
     return kErrors;
   }
   show_maps(maps, options, session);
+  show_uncompared(*before, *after, options, session);
   summarise(options, counts, session);
   return counts.differ != 0 ? static_cast<int>(kErrors) : session.exit_code();
 }

@@ -21,6 +21,7 @@
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/experiment_minds.h"
 #include "tools/kbc/interrupts.h"
+#include "tools/kbc/source_print.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/stream.h"
@@ -164,14 +165,6 @@ bool copy(const std::string& from, const std::string& to, Session& session) {
   return bytes && session.write_files({{to, std::move(*bytes)}});
 }
 
-/// Tells this program from another of the same version, whose simulator, controllers or judge may differ: by the bytes of its file.
-std::string program_print() {
-  std::string error;
-  source::Fingerprint print;
-  if (const auto bytes = trace::read_all("/proc/self/exe", SIZE_MAX, error)) print.mix(*bytes);
-  return fmt::format("{} {:016x}", KB_VERSION, print.value());
-}
-
 /// Opens the results that exist, drives the rest, and writes the results.
 int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const lab::Results::Minds& minds, Session& session) {
   std::error_code failed;
@@ -181,7 +174,7 @@ int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const l
   if (complete && !copy(whole, part, session)) return kErrors;
   lab::Results results;
   using Opened = lab::Results::Opened;
-  const auto opened = results.open(part, lab::fingerprint(setup, program_print(), session.files()), setup, minds);
+  const auto opened = results.open(part, lab::fingerprint(setup, fmt::format("{} {}", KB_VERSION, source_print()), session.files()), setup, minds);
   if (opened == Opened::kFailed) session.report(Kind::kCannotWrite, {part, results.error()});
   if (opened == Opened::kOther) session.report(Kind::kExperimentOther, {options.out});
   if (opened == Opened::kOtherMind) session.report(Kind::kExperimentOtherMind, {options.out, results.error()});

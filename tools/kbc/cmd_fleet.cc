@@ -20,6 +20,7 @@
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/fleet_shards.h"
 #include "tools/kbc/interrupts.h"
+#include "tools/kbc/source_print.h"
 
 namespace kb::cli {
 namespace {
@@ -106,7 +107,7 @@ bool read_scenarios(const FleetOptions& options, const sim::Combinations& set, D
 std::string fingerprint_of(const FleetOptions& options, const sim::batch::BatchOptions& batch, const DriveGround& ground,
                            const std::vector<sim::batch::NamedScenario>& scenarios) {
   source::Fingerprint print;
-  print.mix(fmt::format("{} {} {} {} {} {}\n", KB_VERSION, batch.first_seed, batch.last_seed, batch.robots, batch.dt_us, options.ground.scale.value_or(0.0)));
+  print.mix(fmt::format("{} {} {} {} {} {}\n", source_print(), batch.first_seed, batch.last_seed, batch.robots, batch.dt_us, options.ground.scale.value_or(0.0)));
   for (const std::string& stub : options.ground.stub) print.mix(stub + "\n");
   for (const auto& scenario : scenarios) print.mix(scenario.name + "\n");
   const source::Sources& sources = ground.compiled->sources;
@@ -269,6 +270,10 @@ int follow(const FleetOptions& options, unsigned jobs, Ranks& ranks, Session& se
 /// Whether a launcher of MPI jobs has started this process, and it is to do more than a given share.
 bool is_rank(const FleetOptions& options) {
   if (const char* size = std::getenv("OMPI_COMM_WORLD_SIZE")) return std::string_view(size) != "1";
+  for (const char* variable : {"PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {   // one process of `srun` is no job of ranks
+    const char* size = std::getenv(variable);
+    if (size != nullptr && std::string_view(size) == "1") return false;
+  }
   const bool told = !options.share.empty() || options.merge;
   return !told && (std::getenv("PMIX_RANK") != nullptr || std::getenv("PMI_RANK") != nullptr);
 }

@@ -148,6 +148,29 @@ TEST(Swap, SetsOffNothingThatStands) {
   EXPECT_EQ(status_after(stops, program::testing::ProgramBuilder({"goal", "control"}).fact("On").build()), mts::Status::kNoStrategy);
 }
 
+TEST(Swap, TellsOfAnIdleStrategyThatDroveAndIsGone) {
+  const auto parks = [](const std::string& where) {
+    using namespace program::testing;
+    return ProgramBuilder({"goal", "control"}).fact("On").strategy("Go").strategy(where).idle(where).when("go", "goal", seen("On"), {raise("sat Go")}).build();
+  };
+  const program::Program old = parks("Park"), now = parks("Stand");
+  const LoadedImage from(write_image(build(old), old)), to(write_image(build(now), now));
+  from.visit([&]<class I>(const mts::Image<I>& from_view) {
+    to.visit([&]<class J>(const mts::Image<J>& to_view) {
+      Running<I> before(from_view);
+      before.engine().reset();
+      mts::SwapReport report;
+      std::vector<std::string> losses;
+      static_cast<void>(swapped(before, to_view, report, &losses));
+      EXPECT_EQ(losses, std::vector<std::string>()) << "it has not driven yet";
+      before.tick({0.0f}, 100'000);
+      static_cast<void>(swapped(before, to_view, report, &losses));
+      ASSERT_EQ(losses.size(), 1u);
+      EXPECT_TRUE(losses.front().starts_with("strategy Park")) << losses.front();
+    });
+  });
+}
+
 TEST(Swap, LeavesARobotStandingWhoseStrategyIsGone) {
   const program::Program old = goes("hold", 5'000'000), now = program::testing::ProgramBuilder({"goal", "control"}).fact("On").build();
   const LoadedImage from(write_image(build(old), old)), to(write_image(build(now), now));

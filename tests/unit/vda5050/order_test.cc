@@ -250,8 +250,10 @@ TEST_F(Orders, ActionsOfTheHorizonWaitAndGoWithIt) {
 TEST_F(Orders, MessagesForOthersAndOfOtherVersionsAreRefused) {
   Json json = order("A", 0, {"n1", "n2"});
   refuses(with_header(json, "8"), "validationError", "another vehicle");
-  json["version"] = "3.0.0";
-  refuses(json, "validationError", "version 3.0.0 is not spoken here");
+  for (const char* other : {"3.0.0", "1.1.0", "2", "2.", "2.banana", "2.-1", "2.1.0.", "2.1.0.4", "2..1", "", "22.1"}) {
+    json["version"] = other;
+    refuses(json, "validationError", "version `" + std::string(other) + "` is not spoken here");
+  }
   json["version"] = "2.1.0";
   json.erase("headerId");
   json.erase("timestamp");

@@ -41,6 +41,19 @@ void print(const Json& json, std::string& out) {
   out += object ? '}' : ']';
 }
 
+/// Whether it is 2.N or 2.N.N: a later 2.N only adds to what this reads.
+bool is_second_version(std::string_view version) {
+  std::size_t numbers = 0;
+  for (std::size_t at = 0; at <= version.size(); ++numbers) {
+    const std::size_t end = std::min(version.find('.', at), version.size());
+    const std::string_view number = version.substr(at, end - at);
+    const bool digits = !number.empty() && number.size() <= 9 && number.find_first_not_of("0123456789") == std::string_view::npos;
+    if (!digits || (numbers == 0 && number != "2")) return false;
+    at = end + 1;
+  }
+  return numbers == 2 || numbers == 3;
+}
+
 /// Reads fields of objects and checks their types. Keeps the first mistake; after it, what it returns has no meaning.
 class Reader {
  public:
@@ -58,7 +71,7 @@ class Reader {
     }
     const std::string version = text(*root, "version", ""), maker = text(*root, "manufacturer", ""), serial = text(*root, "serialNumber", "");
     if (failed()) return std::nullopt;
-    if (version.rfind("2.", 0) != 0) return refuse(fmt::format("version {} is not spoken here, but 2.1.0", clipped(version)), {{"version", clipped(version)}});
+    if (!is_second_version(version)) return refuse(fmt::format("version `{}` is not spoken here, but 2.0.0 and 2.1.0", clipped(version)), {{"version", clipped(version)}});
     if (maker != identity.manufacturer || serial != identity.serial) {
       return refuse("this is meant for another vehicle", {{"manufacturer", clipped(maker)}, {"serialNumber", clipped(serial)}});
     }
