@@ -49,8 +49,27 @@ class RoadsDriven {
   const MapRoad *road_ = nullptr, *came_ = nullptr;
 };
 
-/// What to ask of a controller that drives `roads.road()` from its beginning: its course from the robot's centre, whose line sensors are on the stop
-/// line out, to the stop line in. Crossings are taken to be as large as `body` says. A robot that begins farther on, since it
+namespace detail {
+
+/// The way along the road from `from_m` to `to_m`, both counted from the middle of its first crossing; the piece that it ends on is its heading.
+[[nodiscard]] constexpr Door way_between(const MapRoad& road, float from_m, float to_m) noexcept {
+  Door way;
+  float passed_m = 0.0f;
+  for (std::size_t i = 0; i < road.pieces; ++i) {
+    const Piece& piece = road.course[i];
+    const float part_m = greatest(least(passed_m + piece.length_m, to_m) - greatest(passed_m, from_m), 0.0f);
+    way.x_m += part_m * cosine(piece.heading_rad);
+    way.y_m += part_m * sine(piece.heading_rad);
+    if (i == 0 || part_m > 0.0f) way.heading_rad = piece.heading_rad;
+    passed_m += piece.length_m;
+  }
+  return way;
+}
+
+}  // namespace detail
+
+/// What to ask of a controller that drives `roads.road()` from its beginning: its course from the robot's centre, whose line sensors are on the
+/// stop line out, to the stop line in. Crossings are taken to be as large as `body` says. A robot that begins farther on, since it
 /// was set down there or has turned back, is `driven_m` past that beginning. Pieces beyond the eighth are left out, and a road shorter
 /// than its crossings has none, nor has an unknown one: the controllers then follow line and walls, or hold the heading in which they begin.
 /// O(pieces).
@@ -60,23 +79,20 @@ class RoadsDriven {
   const MapRoad& road = *roads.road();
   float length_m = 0.0f;
   for (std::size_t i = 0; i < road.pieces; ++i) length_m += road.course[i].length_m;
-  const float half_m = 0.5f * body.crossing_m;
-  const float from_m = half_m - body.line_ahead_m + greatest(driven_m, 0.0f), to_m = length_m - half_m;
-  float passed_m = 0.0f, x_m = 0.0f, y_m = 0.0f;
+  const float line_m = 0.5f * body.crossing_m, to_m = length_m - line_m;
+  const float from_m = line_m - body.line_ahead_m + greatest(driven_m, 0.0f);
+  float passed_m = 0.0f;
   for (std::size_t i = 0; i < road.pieces && task.pieces < kLongestCourse; ++i) {
     const Piece& piece = road.course[i];
     const float left_m = least(passed_m + piece.length_m, to_m) - greatest(passed_m, from_m);
+    if (left_m >= 0.01f) task.course[task.pieces++] = {piece.heading_rad, left_m};
     passed_m += piece.length_m;
-    if (!(left_m >= 0.01f)) continue;
-    task.course[task.pieces++] = {piece.heading_rad, left_m};
-    x_m += left_m * cosine(piece.heading_rad);
-    y_m += left_m * sine(piece.heading_rad);
   }
   task.in_hall = crosses_hall(road) && task.pieces > 0;
   if (!task.in_hall) return task;
-  const float in_rad = road.course[0].heading_rad, to_line_m = body.line_ahead_m - greatest(driven_m, 0.0f);
-  task.in = {to_line_m * cosine(in_rad), to_line_m * sine(in_rad), in_rad};
-  task.out = {x_m, y_m, road.course[road.pieces - 1].heading_rad};
+  const Door ahead = detail::way_between(road, from_m, line_m), behind = detail::way_between(road, line_m, from_m);   // one of them has no length
+  task.in = {ahead.x_m - behind.x_m, ahead.y_m - behind.y_m, road.course[0].heading_rad};
+  task.out = detail::way_between(road, from_m, to_m);
   return task;
 }
 

@@ -16,6 +16,7 @@ std::string reason(int error) {
     case EDQUOT: return "the quota of the disk is used up";
     case EFBIG: return "is too large for the disk";
     case EROFS: return "the file system is read-only";
+    case ESTALE: return "the server of its file system does not know it any more";
     case EIO: return "input/output error";
     case ELOOP: return "too many symbolic links";
     case ENAMETOOLONG: return "the name is too long";

@@ -66,6 +66,11 @@ TEST(RoadMap, TheDoorsOfAHallAreItsStopLinesSeenFromTheRobot) {
   EXPECT_EQ(task.out.heading_rad, 0.5f * kPi);
   EXPECT_NEAR(later.in.x_m, -0.4f, 1e-6f);
   EXPECT_NEAR(later.out.x_m, 2.2f, 1e-5f);
+  const Task past_bend = task_along(on(kOpen), kBody, 3.7f);   // 1 m north of the bend
+  EXPECT_NEAR(past_bend.in.x_m, -2.6f, 1e-5f);
+  EXPECT_NEAR(past_bend.in.y_m, -1.0f, 1e-5f);
+  EXPECT_NEAR(past_bend.out.x_m, 0.0f, 1e-5f);
+  EXPECT_NEAR(past_bend.out.y_m, 2.6f, 1e-5f);
 }
 
 // The sign of Shelf is read on the road from Arch; there the leg by Store turns out to be closed.
