@@ -152,8 +152,11 @@ std::optional<BatchFiles::Merged> BatchFiles::merge(Session& session) {
   for (std::size_t shard = 0; !complete_ && shard < batch_.shards(); ++shard) {
     if (!gather(shard_path(shard), shard_head(shard), batch_.block(shard))) return std::nullopt;
   }
-  std::string summary = sim::batch::summarise(batch_, runs);
-  if (!session.write_files({{path("runs.csv"), fmt::format("{}\n{}\n{}", head_, batch_.header(), rows)}, {path("summary.md"), summary}})) return std::nullopt;
+  std::string summary = sim::batch::summarise(batch_, runs), ignored_error;
+  std::vector<Session::OutputFile> files;   // those that are not there yet: results that are complete may lie where nothing can be written
+  if (!complete_) files.push_back({path("runs.csv"), fmt::format("{}\n{}\n{}", head_, batch_.header(), rows)});
+  if (!complete_ || trace::read_all(path("summary.md"), summary.size(), ignored_error) != summary) files.push_back({path("summary.md"), summary});
+  if (!session.write_files(files)) return std::nullopt;
   std::error_code ignored;
   for (std::size_t shard = 0; shard < batch_.shards(); ++shard) std::filesystem::remove(shard_path(shard), ignored);
   std::filesystem::remove(path(kClaims), ignored);
