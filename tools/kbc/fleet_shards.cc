@@ -68,7 +68,8 @@ bool BatchFiles::read_head(Text& file, const std::string& head, Session& session
   const std::string begin = fmt::format("{}\n{}\n", head, batch_.header());
   file.rows_at = begin.size();
   if (file.bytes.starts_with(begin)) return true;
-  file.complain(session, Kind::kFleetOther, 0, {});
+  if (begin.starts_with(file.bytes)) file.complain(session, Kind::kFleetDamaged, file.bytes.size(), {"the head of the table"});
+  else file.complain(session, Kind::kFleetOther, 0, {});
   return false;
 }
 
