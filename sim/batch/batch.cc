@@ -22,6 +22,21 @@ std::string row_begin(const std::vector<NamedScenario>& scenarios, const Run& ru
   return begin + fmt::format("{},{},{},", run.seed, run.robot, run.noise);
 }
 
+std::string row_end(const Run& run) {
+  const std::string closest = run.closest_m == kNothingNear ? std::string() : fmt::format("{:.3f}", run.closest_m);
+  return fmt::format("{},{},{:.1f},{:.2f},{},{},{},{},{:.2f},{:.2f},{},{}", run.outcome, run.reports, run.time_s, run.length_m, run.collisions, run.bans_broken,
+                     run.lost_unaware ? 1 : 0, run.standing_contacts, run.touched_s, run.impact_m_s, closest, run.missed);
+}
+
+/// Whether a drive of that scenario can have come to this: so a row that was damaged on disk does not spoil the quantiles of all others.
+bool is_possible(const Run& run, const Scenario& scenario) {
+  constexpr double kMostSpeed = 1000.0;         // m/s; nothing in a scenario comes near it
+  const double most_s = scenario.limit_s + 2.0;   // the tick in which the time is up, at most 1 s long, is driven to its end
+  const auto within = [](double value, double most) { return value >= 0.0 && value <= most; };
+  return within(run.time_s, most_s) && within(run.length_m, kMostSpeed * most_s) && within(run.touched_s, most_s) && within(run.impact_m_s, kMostSpeed) &&
+         (run.closest_m == kNothingNear || run.closest_m >= 0.0) && run.missed <= scenario.events.size();
+}
+
 }  // namespace
 
 Batch::Batch(const Knowledge& knowledge, std::vector<NamedScenario> scenarios, const BatchOptions& options)
@@ -64,12 +79,7 @@ std::string Batch::header() const {
   return header + "seed,robot,noise,outcome,reports,time_s,length_m,collisions,bans_broken,lost_unaware,standing_contacts,touched_s,impact_m_s,closest_m,missed";
 }
 
-std::string Batch::print(const Run& run) const {
-  const std::string closest = run.closest_m == kNothingNear ? std::string() : fmt::format("{:.3f}", run.closest_m);
-  return row_begin(scenarios_, run) + fmt::format("{},{},{:.1f},{:.2f},{},{},{},{},{:.2f},{:.2f},{},{}", run.outcome, run.reports, run.time_s, run.length_m,
-                                                  run.collisions, run.bans_broken, run.lost_unaware ? 1 : 0, run.standing_contacts, run.touched_s, run.impact_m_s,
-                                                  closest, run.missed);
-}
+std::string Batch::print(const Run& run) const { return row_begin(scenarios_, run) + row_end(run); }
 
 std::optional<Run> Batch::parse(std::string_view line, std::size_t number) const {
   Run result = run(number);
@@ -88,7 +98,8 @@ std::optional<Run> Batch::parse(std::string_view line, std::size_t number) const
   result.outcome = fields[0];
   result.reports = fields[1];
   result.lost_unaware = unaware == 1;
-  return result;
+  const bool as_printed = line.substr(begin.size()) == row_end(result);
+  return as_printed && is_possible(result, scenarios_[result.scenario].scenario) ? std::optional(std::move(result)) : std::nullopt;
 }
 
 }  // namespace kb::sim::batch

@@ -67,7 +67,7 @@ class Batch {
   /// A line of CSV without its line break, and the line of column names.
   [[nodiscard]] std::string print(const Run& run) const;
   [[nodiscard]] std::string header() const;
-  /// Reads back the line that `print` wrote for this number; nothing if it is another line.
+  /// Reads back the line that `print` wrote for this number; nothing if it is another line, or one that no drive can have led to.
   [[nodiscard]] std::optional<Run> parse(std::string_view line, std::size_t number) const;
 
  private:

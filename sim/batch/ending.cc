@@ -49,8 +49,21 @@ double quantile(std::vector<double> values, double share) {
   return values[std::max<std::size_t>(rank, 1) - 1];
 }
 
+namespace {
+
+/// With as many decimal places, at least one, as keep some from looking like none, and most from looking like all.
+std::string figure(double percent) {
+  const auto misleads = [](const std::string& text) { return text.starts_with("100") || text.find_first_not_of("0.") == std::string::npos; };
+  std::string text = fmt::format("{:.1f}", percent);
+  if (percent <= 0.0 || percent >= 100.0) return text;
+  for (int places = 2; misleads(text); ++places) text = fmt::format("{:.{}f}", percent, places);
+  return text;
+}
+
+}  // namespace
+
 std::string percent(std::size_t part, std::size_t all) {
-  return all == 0 ? "-" : fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(all));
+  return all == 0 ? "-" : figure(100.0 * static_cast<double>(part) / static_cast<double>(all)) + " %";
 }
 
 std::string percent_between(std::size_t part, std::size_t all) {
@@ -60,8 +73,8 @@ std::string percent_between(std::size_t part, std::size_t all) {
   const double share = static_cast<double>(part) / n, scale = 1.0 + kZ * kZ / n;
   const double middle = (share + kZ * kZ / (2.0 * n)) / scale;
   const double half = kZ / scale * std::sqrt(share * (1.0 - share) / n + kZ * kZ / (4.0 * n * n));
-  const double low = std::max(middle - half, 0.0), high = std::min(middle + half, 1.0);
-  return fmt::format("{} ({:.1f} to {:.1f})", percent(part, all), 100.0 * low, 100.0 * high);
+  const double low = part == 0 ? 0.0 : middle - half, high = part == all ? 1.0 : middle + half;   // rounding would come near these two only
+  return fmt::format("{} ({} to {})", percent(part, all), figure(100.0 * low), figure(100.0 * high));
 }
 
 }  // namespace kb::sim::batch

@@ -50,7 +50,7 @@ struct Tally {
 
 /// The quantile by nearest rank: a `share` of all values is not above it. 0 if there are no values. O(n log n).
 [[nodiscard]] double quantile(std::vector<double> values, double share);
-/// `12.5 %`; `-` if `all` is 0.
+/// `12.5 %`; `-` if `all` is 0. One decimal place, and more only where it would print some as 0.0 or less than all as 100.0: `99.96 %`.
 [[nodiscard]] std::string percent(std::size_t part, std::size_t all);
 /// `98.8 % (96.4 to 99.6)`: the share, and the range of shares that so many runs cannot distinguish from it: the 95 % score
 /// interval (Wilson, Probable inference, the law of succession, and statistical inference, 1927), which holds for few

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,7 +17,7 @@ struct Demand {
   enum class Sign : std::uint8_t { kAtLeast, kAtMost, kAbove, kBelow, kExactly } sign{};
   std::string text;         ///< as written
   std::size_t kind = 0;     ///< index into what can be counted: outcomes, and other things that happen to a run
-  double number = 0.0;      ///< runs, or percent of them
+  std::uint64_t number = 0, scale = 1;   ///< runs, or percent of them times `scale`, which is 10 for one decimal place
   bool share = false;
 };
 

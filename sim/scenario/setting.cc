@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <set>
 
 namespace kb::sim {
 namespace {
@@ -14,6 +15,15 @@ bool is_value(const std::string& text) {
   } catch (const toml::parse_error&) {
     return false;
   }
+}
+
+/// The same text for values that are the same number, `0.01` and `1e-2`; any other text as it is.
+std::string plain_value(const std::string& text) {
+  if (!is_value(text)) return text;
+  const toml::table table = toml::parse("x = " + text);
+  if (const auto* whole = table["x"].as_integer()) return fmt::format("{}", whole->get());
+  const auto* number = table["x"].as_floating_point();
+  return number != nullptr ? fmt::format("{}", number->get() + 0.0) : text;   // so that -0.0 is 0
 }
 
 bool is_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; }
@@ -40,6 +50,7 @@ std::optional<Sweep> read_sweep(std::string_view text, std::string& why) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos || !is_key(text.substr(0, equals))) return wrong("write KEY=VALUE, such as sensors.range.noise=0.1");
   Sweep sweep{std::string(text.substr(0, equals)), {}};
+  std::set<std::string> seen;
   for (std::string_view rest = text.substr(equals + 1);;) {
     const std::size_t comma = rest.find(',');
     const std::string value(rest.substr(0, comma));
@@ -47,7 +58,7 @@ std::optional<Sweep> read_sweep(std::string_view text, std::string& why) {
     if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || std::string_view("\"'\\|#<&").find(c) != std::string_view::npos; })) {
       return wrong("a text is written bare, and without \\ | # < &");   // those would break the pictures and tables of results
     }
-    if (std::find(sweep.values.begin(), sweep.values.end(), value) != sweep.values.end()) return wrong("a value is there twice");
+    if (!seen.insert(plain_value(value)).second) return wrong("a value is there twice");
     sweep.values.push_back(value);
     if (comma == std::string_view::npos) return sweep;
     rest.remove_prefix(comma + 1);

@@ -25,7 +25,7 @@ struct Sweep {
   std::string key;
   std::vector<std::string> values;
 };
-/// Reads `KEY=V1,V2,...`. Nothing if it is malformed or names a value twice; `why` then says what is wrong.
+/// Reads `KEY=V1,V2,...`. Nothing if it is malformed or names a value twice, if in other digits; `why` then says what is wrong.
 [[nodiscard]] std::optional<Sweep> read_sweep(std::string_view text, std::string& why);
 /// All combinations of the sweeps' values; the last sweep changes fastest. Without sweeps, one empty row.
 [[nodiscard]] Combinations rows_of(const std::vector<Sweep>& sweeps);

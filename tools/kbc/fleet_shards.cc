@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "compiler/source/numbers.h"
 #include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/stream.h"
 
@@ -31,7 +32,20 @@ bool Claims::take(const std::string& path, std::size_t number) {
   byte.l_start = static_cast<off_t>(number);
   byte.l_len = 1;
   // The lock belongs to the open file and not to the process: threads share it, and closing another descriptor does not release it.
-  return file_ < 0 || ::fcntl(file_, F_OFD_SETLK, &byte) == 0 || (errno != EAGAIN && errno != EACCES);
+  if (file_ >= 0 && ::fcntl(file_, F_OFD_SETLK, &byte) == 0) return true;
+  const bool held = file_ >= 0 && (errno == EAGAIN || errno == EACCES);
+  locks_ = locks_ && held;
+  return !held;
+}
+
+/// Whether that is the name of what a killed process left of a file: see OutputFile. One in 200 of those names has small letters only; it is
+/// not taken for one, as somebody may have made a copy, `0001.csv.backup`.
+static bool is_left_of(std::string_view file, std::string_view name) {
+  constexpr std::size_t kRandom = 6;
+  if (name.size() != file.size() + 1 + kRandom || !name.starts_with(file) || name[file.size()] != '.') return false;
+  const auto small = [](char c) { return c >= 'a' && c <= 'z'; };
+  const std::string_view random = name.substr(file.size() + 1);
+  return !std::ranges::all_of(random, small) && std::ranges::all_of(random, [&](char c) { return small(c) || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
 }
 
 /// The contents of a file, and where its rows begin.
@@ -68,7 +82,8 @@ bool BatchFiles::read_head(Text& file, const std::string& head, Session& session
   const std::string begin = fmt::format("{}\n{}\n", head, batch_.header());
   file.rows_at = begin.size();
   if (file.bytes.starts_with(begin)) return true;
-  file.complain(session, Kind::kFleetOther, 0, {});
+  if (begin.starts_with(file.bytes)) file.complain(session, Kind::kFleetDamaged, file.bytes.size(), {"the head of the table"});
+  else file.complain(session, Kind::kFleetOther, 0, {});
   return false;
 }
 
@@ -119,7 +134,21 @@ bool BatchFiles::claim(Session& session) {
     if (!mine && elsewhere_.empty()) elsewhere_ = shard_path(shard);
     return !mine;
   });
+  if (!failed && claims_.locks()) remove_left();
   return !failed;
+}
+
+void BatchFiles::remove_left() const {
+  std::error_code failed, ignored;
+  std::vector<std::filesystem::path> left;
+  for (std::filesystem::directory_iterator entry(path("shards"), failed), end; !failed && entry != end; entry.increment(failed)) {
+    const std::string name = entry->path().filename().string();
+    std::size_t number = 0;
+    if (!source::read_number(std::string_view(name).substr(0, name.find('.')), number) || !std::ranges::binary_search(missing_, number - 1)) continue;
+    const std::string shard = std::filesystem::path(shard_path(number - 1)).filename().string();
+    if (is_left_of(shard, name) && entry->is_regular_file(ignored)) left.push_back(entry->path());
+  }
+  for (const auto& file : left) std::filesystem::remove(file, ignored);
 }
 
 bool BatchFiles::refuse(const std::string& path, Session& session) {
@@ -152,8 +181,11 @@ std::optional<BatchFiles::Merged> BatchFiles::merge(Session& session) {
   for (std::size_t shard = 0; !complete_ && shard < batch_.shards(); ++shard) {
     if (!gather(shard_path(shard), shard_head(shard), batch_.block(shard))) return std::nullopt;
   }
-  std::string summary = sim::batch::summarise(batch_, runs);
-  if (!session.write_files({{path("runs.csv"), fmt::format("{}\n{}\n{}", head_, batch_.header(), rows)}, {path("summary.md"), summary}})) return std::nullopt;
+  std::string summary = sim::batch::summarise(batch_, runs), ignored_error;
+  std::vector<Session::OutputFile> files;   // those that are not there yet: results that are complete may lie where nothing can be written
+  if (!complete_) files.push_back({path("runs.csv"), fmt::format("{}\n{}\n{}", head_, batch_.header(), rows)});
+  if (!complete_ || trace::read_all(path("summary.md"), summary.size(), ignored_error) != summary) files.push_back({path("summary.md"), summary});
+  if (!session.write_files(files)) return std::nullopt;
   std::error_code ignored;
   for (std::size_t shard = 0; shard < batch_.shards(); ++shard) std::filesystem::remove(shard_path(shard), ignored);
   std::filesystem::remove(path(kClaims), ignored);

@@ -28,9 +28,12 @@ class Claims {
   /// False if another process holds the number in the file at `path`; the file is made, and has to be the same each time. True also if
   /// files cannot be locked here.
   [[nodiscard]] bool take(const std::string& path, std::size_t number);
+  /// Whether files can be locked here, so that what was taken is held by no other process.
+  [[nodiscard]] bool locks() const { return locks_; }
 
  private:
   int file_ = -1;
+  bool locks_ = true;
 };
 
 class BatchFiles {
@@ -43,8 +46,8 @@ class BatchFiles {
   [[nodiscard]] bool open(Session& session, const std::vector<std::size_t>& wanted);
   /// The wanted shards that are missing, in order.
   [[nodiscard]] const std::vector<std::size_t>& missing() const { return missing_; }
-  /// Makes the folder of shards, and drops from the missing ones those that another process has in hand. False (reported) if the folder
-  /// cannot be made.
+  /// Makes the folder of shards, and drops from the missing ones those that another process has in hand. Of the others it removes what
+  /// processes left that were killed while they wrote. False (reported) if the folder cannot be made.
   [[nodiscard]] bool claim(Session& session);
   /// Whether `claim` got all missing shards; false (reported) if another process has some in hand.
   [[nodiscard]] bool claimed_all(Session& session) const { return elsewhere_.empty() || refuse(elsewhere_, session); }
@@ -60,6 +63,7 @@ class BatchFiles {
 
  private:
   struct Text;
+  void remove_left() const;
   [[nodiscard]] static bool refuse(const std::string& path, Session& session);
   [[nodiscard]] std::string shard_head(std::size_t shard) const;
   [[nodiscard]] bool read_head(Text& file, const std::string& head, Session& session) const;

@@ -5,6 +5,7 @@
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/none --expect "arives>=95%"
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/none --expect "arrived>=950%"
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/none --expect "arrived>=0.95"
+# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/none --expect "arrived>=95.0000000001%"
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/none --expect "arrived>=few,collisions=0"
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/none --expect "arrived>=1," ; test ! -e %t/none && echo nothing was driven
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/none --expect "arrived>=1" --shard 1/2

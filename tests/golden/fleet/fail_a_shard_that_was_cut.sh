@@ -1,2 +1,4 @@
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8 --shard 1/2 -q && head -n 4 %t/results/shards/0001.csv > %t/cut && cp %t/cut %t/results/shards/0001.csv && kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8
 # RUN: rm %t/results/shards/0001.csv && kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8 --shard 1/2 -q && echo more >> %t/results/shards/0001.csv && kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8
+# RUN: : > %t/results/shards/0001.csv && kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8
+# RUN: rm %t/results/shards/0001.csv && kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8 --shard 1/2 -q && head -n 1 %t/results/shards/0001.csv > %t/cut && cp %t/cut %t/results/shards/0001.csv && kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8

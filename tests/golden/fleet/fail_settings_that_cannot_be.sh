@@ -9,5 +9,7 @@
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --scenario ../../../examples/04_simulator/detour.toml --out %t/results --set limit
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --scenario ../../../examples/04_simulator/detour.toml --out %t/results --set limit=
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --scenario ../../../examples/04_simulator/detour.toml --out %t/results --set title=a,a
+# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --scenario ../../../examples/04_simulator/detour.toml --out %t/results --set sensors.range.noise=0.01,0.010
+# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --scenario ../../../examples/04_simulator/detour.toml --out %t/results --set event.1.for=10,1e1
 # RUN: kbc fleet ../../../examples/04_simulator/route1.kb --scenario ../../../examples/04_simulator/detour.toml --out %t/results --set 'title="a"'
 # RUN: kbc sim ../../../examples/04_simulator/route1.kb --set limit=20,30

@@ -1,0 +1,2 @@
+# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-4 -q > %t/table && cp %t/results/runs.csv %t/good && kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-4 | diff - %t/table && echo as it was written
+# RUN: sed '4s/arrived,,[0-9.]*,/arrived,,-1e300,/' %t/good > %t/results/runs.csv && kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-4

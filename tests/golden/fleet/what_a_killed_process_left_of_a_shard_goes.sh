@@ -1,0 +1,1 @@
+# RUN: mkdir -p %t/results/shards && cd %t/results/shards && touch 0001.csv.aB3dE6 0001.csv.backup 0001.csv.aB3dE67 0009.csv.aB3dE6 && cd - > /dev/null && kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-4 -q > /dev/null && cd %t && find results | LC_ALL=C sort
