@@ -135,7 +135,16 @@ bool BatchFiles::claim(Session& session) {
     return !mine;
   });
   if (!failed && claims_.locks()) remove_left();
+  look_again();
   return !failed;
+}
+
+void BatchFiles::look_again() {
+  std::error_code ignored;
+  if (complete_ || !std::filesystem::exists(path("runs.csv"), ignored)) return;
+  complete_ = true;
+  missing_.clear();
+  elsewhere_.clear();
 }
 
 void BatchFiles::remove_left() const {
@@ -166,6 +175,7 @@ std::string BatchFiles::write(std::size_t shard, const std::string& rows) const 
 
 std::optional<BatchFiles::Merged> BatchFiles::merge(Session& session) {
   if (!complete_ && !claims_.take(path(kClaims), batch_.shards()) && !refuse(path("runs.csv"), session)) return std::nullopt;
+  look_again();
   std::vector<sim::batch::Run> runs;
   runs.reserve(batch_.runs());
   std::string rows;

@@ -64,6 +64,9 @@ class BatchFiles {
  private:
   struct Text;
   void remove_left() const;
+  /// Takes a batch that another command has finished since it was opened for finished. Call it when a lock has been taken: whoever finishes a
+  /// batch removes the locks only then.
+  void look_again();
   [[nodiscard]] static bool refuse(const std::string& path, Session& session);
   [[nodiscard]] std::string shard_head(std::size_t shard) const;
   [[nodiscard]] bool read_head(Text& file, const std::string& head, Session& session) const;

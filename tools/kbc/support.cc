@@ -356,17 +356,18 @@ int Session::finish(int code) {
   }
   if (sarif_) tell(sarif_->print());
   const std::string counts = diagnostics::summary(errors_, warning_count_);
-  if (!counts.empty() && options_.format == "text") remark(counts);
+  if (!counts.empty() && says_text()) remark(counts);
   if (code == kClean && untold_) return kErrors;   // who reads messages from a file must not take a full disk for a clean run
   return code == kClean ? exit_code() : code;
 }
 
 namespace {
 constexpr auto kFirst = std::chrono::milliseconds(500), kNext = std::chrono::milliseconds(100);
+constexpr auto kInLog = std::chrono::minutes(1);
 }
 
 Progress::Progress(const Session& session, std::string_view what)
-    : what_(what), on_(!session.quiet() && is_terminal(STDERR_FILENO)), next_(std::chrono::steady_clock::now() + kFirst) {}
+    : what_(what), terminal_(is_terminal(STDERR_FILENO)), on_(!session.quiet() && (terminal_ || session.says_text())), next_(began_ + (terminal_ ? std::chrono::milliseconds(kFirst) : kInLog)) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs("\r\x1b[K", stderr);
@@ -382,10 +383,11 @@ std::string Progress::time_left(std::uint64_t done, std::uint64_t total) const {
 void Progress::show(std::uint64_t done, std::uint64_t total) {
   const auto now = std::chrono::steady_clock::now();
   if (!on_ || now < next_) return;
-  next_ = now + kNext;
-  shown_ = true;
+  next_ = now + (terminal_ ? std::chrono::milliseconds(kNext) : kInLog);
+  shown_ = terminal_;
   const std::string of = total == 0 ? "" : " of " + std::to_string(total);
-  std::fprintf(stderr, "\r\x1b[K%llu%s %s%s", static_cast<unsigned long long>(done), of.c_str(), what_.c_str(), time_left(done, total).c_str());
+  std::fprintf(stderr, "%s%llu%s %s%s%s", terminal_ ? "\r\x1b[K" : "", static_cast<unsigned long long>(done), of.c_str(), what_.c_str(), time_left(done, total).c_str(),
+               terminal_ ? "" : "\n");
   std::fflush(stderr);
 }
 

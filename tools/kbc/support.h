@@ -63,6 +63,8 @@ class Session {
   void note_input(std::string_view path) { files_.note(path); }
   [[nodiscard]] const std::string& library() const { return library_; }
   [[nodiscard]] bool quiet() const { return options_.quiet; }
+  /// Whether messages are text for people: other formats must not be mixed with it.
+  [[nodiscard]] bool says_text() const { return options_.format == "text"; }
   [[nodiscard]] const Launch& launch() const { return launch_; }
   /// Takes the -W options. False if one names no warning (reported), which is an error of the command line.
   [[nodiscard]] bool take_warning_options();
@@ -166,8 +168,8 @@ class Session {
 /// Whether the file descriptor is a terminal that can show colours and progress.
 [[nodiscard]] bool is_terminal(int file);
 
-/// A line on the terminal that shows the progress of a long command. Nothing is shown if standard error is no terminal, with --quiet, or
-/// during the first half second. The destructor removes the line.
+/// A line on the terminal that shows the progress of a long command, from the first half second on; the destructor removes it. If standard
+/// error is no terminal, a line a minute for its log, unless messages have another format than text. Nothing with --quiet.
 class Progress {
  public:
   Progress(const Session& session, std::string_view what);
@@ -186,7 +188,7 @@ class Progress {
   std::uint64_t before_ = 0;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::string what_;
-  bool on_;
+  bool terminal_, on_;
   bool shown_ = false;
   std::uint32_t calls_ = 0;
   std::chrono::steady_clock::time_point next_;
