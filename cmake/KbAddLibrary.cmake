@@ -6,18 +6,15 @@ cmake_policy(SET CMP0116 NEW)
 # A file that changes with the bytes of an installed kbc, as they are when CMake runs. Packages keep the time of their making, so by
 # times nothing would be compiled again after an upgrade. Empty where kbc is built in this tree.
 function(kb_stamp_of_kbc out_var)
+  get_property(stamp GLOBAL PROPERTY kb_stamp)   # one for all knowledge bases
   get_target_property(imported Waymark::kbc IMPORTED)
-  set(stamp "")
-  if(imported)
-    set(stamp ${CMAKE_BINARY_DIR}/Waymark/kbc.stamp)
-    get_property(made GLOBAL PROPERTY kb_stamp_made)
+  if(imported AND NOT stamp)
     get_target_property(program Waymark::kbc LOCATION)
-    if(NOT made AND EXISTS "${program}")
+    if(EXISTS "${program}")
+      set(stamp ${CMAKE_BINARY_DIR}/Waymark/kbc.stamp)
       file(SHA256 "${program}" bytes)
       file(GENERATE OUTPUT ${stamp} CONTENT "${bytes}\n")
-      set_property(GLOBAL PROPERTY kb_stamp_made TRUE)
-    elseif(NOT made)
-      set(stamp "")
+      set_property(GLOBAL PROPERTY kb_stamp ${stamp})
     endif()
   endif()
   set(${out_var} ${stamp} PARENT_SCOPE)
@@ -59,7 +56,8 @@ endmacro()
 # FILE. No two of one program have the same. The library is made again when FILE.kb or any file
 # that it imports has changed, also indirectly. FLEET adds FILE.kb.fleet.h and FILE.kb.fleet.cc, for many robots at once
 # (docs/fleets.md); MAP adds FILE.kb.map.h, the roads of its routes for Waymark::controllers (docs/controllers.md). LIBRARY is another
-# folder for `std.*`; OPTIONS go to `kbc compile` as they are, as in OPTIONS -Werror. Whoever links NAME into a shared library sets POSITION_INDEPENDENT_CODE on it.
+# folder for `std.*`; OPTIONS go to `kbc compile` as they are, as in OPTIONS -Werror. Whoever links NAME into a shared library sets
+# POSITION_INDEPENDENT_CODE on it.
 #
 # Works in Waymark's own tree, in a project that has it as a subdirectory, and in one that has called find_package(Waymark).
 function(kb_add_library name file)

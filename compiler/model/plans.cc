@@ -157,11 +157,12 @@ class Planner {
 
   /// Plans what to do if a leg is blocked while the robot is on it: back, and on by another way. Only on two-way roads.
   void plan_retreat(RelationId relation, std::size_t j) {
-    if (way_opposite(j) == nullptr || draft_.exhausted) return;
+    const DirectedRoad* opposite = way_opposite(j);
+    if (opposite == nullptr || draft_.exhausted) return;
     const auto way = way_back(draft_.legs[legs_[j]].from, j, draft_.roads[draft_.legs[legs_[j]].road].road);
     if (!way || !count(way->roads.size() + 2)) return;
     const std::string_view name = draft_.routes[route_].name;
-    const std::uint32_t back = add_back(j);
+    const std::uint32_t back = add_back(j, *opposite);
     link_legs(draft_, back, add_chain(draft_, route_, way->roads, legs_[way->rejoins], fmt::format("{}.back{}", name, j), at_));
     add_way_back(relation, fmt::format("{}.retreat{}", name, j), j, back);
     if (j + 1 == legs_.size()) last_retreats_ = true;
@@ -170,8 +171,10 @@ class Planner {
   /// If no way leads round the last road: back to where it begins, and over it again.
   void plan_recheck(RelationId relation) {
     const std::size_t j = legs_.size() - 1;
-    if (last_retreats_ || draft_.legs[legs_[j]].road == kNone32 || !way_opposite(j) || draft_.exhausted || !count(2)) return;
-    const std::uint32_t back = add_back(j);
+    if (last_retreats_ || draft_.legs[legs_[j]].road == kNone32) return;
+    const DirectedRoad* opposite = way_opposite(j);
+    if (opposite == nullptr || draft_.exhausted || !count(2)) return;
+    const std::uint32_t back = add_back(j, *opposite);
     link_legs(draft_, back, legs_[j]);
     add_way_back(relation, fmt::format("{}.recheck", draft_.routes[route_].name), j, back);
   }
@@ -191,8 +194,8 @@ class Planner {
     set_field(draft_, row, "back", draft_.legs[back].row);
   }
 
-  /// Adds the leg that leads back over leg `j`, whose road can be driven both ways. The caller links the leg that follows it.
-  std::uint32_t add_back(std::size_t j) {
+  /// Adds the leg that leads back over leg `j` along the road `opposite`. The caller links the leg that follows it.
+  std::uint32_t add_back(std::size_t j, const DirectedRoad& opposite) {
     const LegInfo leg = draft_.legs[legs_[j]];
     const std::string_view name = draft_.routes[route_].name;
     LegInfo back;
@@ -203,7 +206,6 @@ class Planner {
                        fmt::format("{}.back{}:{}>{}", name, j, landmark_name(draft_, leg.to), landmark_name(draft_, leg.from)), at_);
     set_field(draft_, back.row, "from", draft_.landmarks[leg.to].row);
     set_field(draft_, back.row, "to", draft_.landmarks[leg.from].row);
-    const DirectedRoad& opposite = *way_opposite(j);
     lay_leg(draft_, back.row, opposite.row, opposite.limit_m_per_s);
     draft_.legs.push_back(back);
     return static_cast<std::uint32_t>(draft_.legs.size() - 1);

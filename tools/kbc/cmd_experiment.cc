@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "compiler/source/fingerprint.h"
 #include "planners/crew.h"
 #include "planners/maps/maps.h"
 #include "sim/batch/batch.h"

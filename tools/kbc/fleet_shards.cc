@@ -38,16 +38,6 @@ bool Claims::take(const std::string& path, std::size_t number) {
   return !held;
 }
 
-/// Whether that is the name of what a killed process left of a file: see OutputFile. One in 200 of those names has small letters only; it is
-/// not taken for one, as somebody may have made a copy, `0001.csv.backup`.
-static bool is_left_of(std::string_view file, std::string_view name) {
-  constexpr std::size_t kRandom = 6;
-  if (name.size() != file.size() + 1 + kRandom || !name.starts_with(file) || name[file.size()] != '.') return false;
-  const auto small = [](char c) { return c >= 'a' && c <= 'z'; };
-  const std::string_view random = name.substr(file.size() + 1);
-  return !std::ranges::all_of(random, small) && std::ranges::all_of(random, [&](char c) { return small(c) || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
-}
-
 /// The contents of a file, and where its rows begin.
 struct BatchFiles::Text {
   std::string path, bytes;
@@ -155,7 +145,7 @@ void BatchFiles::remove_left() const {
     std::size_t number = 0;
     if (!source::read_number(std::string_view(name).substr(0, name.find('.')), number) || !std::ranges::binary_search(missing_, number - 1)) continue;
     const std::string shard = std::filesystem::path(shard_path(number - 1)).filename().string();
-    if (is_left_of(shard, name) && entry->is_regular_file(ignored)) left.push_back(entry->path());
+    if (trace::is_left_of(shard, name) && entry->is_regular_file(ignored)) left.push_back(entry->path());
   }
   for (const auto& file : left) std::filesystem::remove(file, ignored);
 }

@@ -2,7 +2,6 @@
 #include "tools/kbc/fleet_shards.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <memory>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/unit/scratch_folder.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {
@@ -27,10 +27,7 @@ class FleetShards : public ::testing::Test {
     options.first_seed = 1;
     options.last_seed = 12;
     batch_.emplace(knowledge_, std::move(scenarios), options);
-    char name[] = "/tmp/fleet_shards_XXXXXX";
-    folder_ = ::mkdtemp(name);
   }
-  ~FleetShards() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] std::unique_ptr<BatchFiles> opened() {
     auto files = std::make_unique<BatchFiles>(folder_ + "/results", *batch_, "0123456789abcdef");
@@ -54,7 +51,8 @@ class FleetShards : public ::testing::Test {
 
   sim::Knowledge knowledge_;
   std::optional<Batch> batch_;
-  std::string folder_;
+  ScratchFolder scratch_;
+  std::string folder_ = scratch_.path();
   Session session_{{}};
 };
 

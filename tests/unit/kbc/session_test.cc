@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tests/unit/scratch_folder.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {
@@ -19,12 +20,7 @@ using diagnostics::Kind;
 
 class InSession : public ::testing::Test {
  protected:
-  void SetUp() override {
-    ::unsetenv("WAYMARK_LIBRARY");
-    std::string pattern = ::testing::TempDir() + "kb_session.XXXXXX";
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { ::unsetenv("WAYMARK_LIBRARY"); }
 
   std::string make(const std::string& name, std::string_view bytes) const {
     const std::string path = folder_ + "/" + name;
@@ -42,7 +38,8 @@ class InSession : public ::testing::Test {
     code_ = session.finish(kClean);
     return ::testing::internal::GetCapturedStderr();
   }
-  std::string folder_;
+  ScratchFolder scratch_;
+  std::string folder_ = scratch_.path();
   int code_ = -1;
 };
 

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "compiler/source/source.h"
+#include "tests/unit/scratch_folder.h"
 
 namespace kb::source {
 namespace {
@@ -14,18 +15,13 @@ namespace fs = std::filesystem;
 
 class RealFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = ::testing::TempDir() + "kb_files.XXXXXX";
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string make(const std::string& name, std::string_view bytes) const {
     const std::string path = folder_ + "/" + name;
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
   }
-  std::string folder_;
+  ScratchFolder scratch_;
+  std::string folder_ = scratch_.path();
   RealFileSystem files_;
 };
 

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -67,10 +68,19 @@ static ::mode_t forbidden() {
   return mask;
 }
 
+constexpr std::string_view kRandom = "XXXXXX";   // in temporary names, behind a point; mkostemp replaces it
+
+bool is_left_of(std::string_view file, std::string_view name) {
+  if (name.size() != file.size() + 1 + kRandom.size() || !name.starts_with(file) || name[file.size()] != '.') return false;
+  const auto small = [](char c) { return c >= 'a' && c <= 'z'; };
+  const std::string_view random = name.substr(file.size() + 1);
+  return !std::ranges::all_of(random, small) && std::ranges::all_of(random, [&](char c) { return small(c) || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
+}
+
 // Opens a file beside the target, so that it can be moved there, with the rights of the old file, or those of any new file (mkostemp
 // makes it private).
 bool OutputFile::open_beside(bool exists, unsigned mode) {
-  temporary_ = target_ + ".XXXXXX";
+  temporary_ = target_ + "." + std::string(kRandom);
   file_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
   if (file_ < 0) {
     temporary_.clear();

@@ -55,6 +55,10 @@ class OutputFile {
   bool staged_ = false, keep_ = false;
 };
 
+/// Whether `name` is a temporary name of `file` (both without folders), as a process leaves it that is killed while it writes. One in 200 of
+/// those names has small letters only; it is not taken for one, as somebody may have made a copy, `0001.csv.backup`.
+[[nodiscard]] bool is_left_of(std::string_view file, std::string_view name);
+
 /// Makes the folder and those above it. Nothing if it exists now, else why not.
 [[nodiscard]] std::optional<std::string> make_folders(const std::string& path);
 
