@@ -115,4 +115,12 @@ namespace detail {
   return {0.0f, left < kMeets_m ? least(motion.turn_rad_s, -kAway_rad_s) : greatest(motion.turn_rad_s, kAway_rad_s)};
 }
 
+/// The same way at no more than `limit_m_s`: the turn becomes slower with the speed, so that the robot drives the same curve.
+[[nodiscard]] constexpr Motion slowed(const Motion& wanted, float limit_m_s) noexcept {
+  const float speed_m_s = magnitude(wanted.speed_m_s);
+  if (!(speed_m_s > limit_m_s)) return wanted;
+  const float share = limit_m_s / speed_m_s;
+  return {share * wanted.speed_m_s, share * wanted.turn_rad_s};
+}
+
 }  // namespace mts

@@ -29,6 +29,11 @@ struct MapRoad {
 /// Whether the road leads across a hall: `by open`, as `std.hall` calls it.
 [[nodiscard]] constexpr bool crosses_hall(const MapRoad& road) noexcept { return same_text(road.by, "open"); }
 
+/// Whether one is the other in the opposite direction.
+[[nodiscard]] constexpr bool is_way_back(const MapRoad& a, const MapRoad& b) noexcept {
+  return same_text(a.from, b.to) && same_text(a.exit, b.approach) && same_text(a.to, b.from) && same_text(a.approach, b.exit);
+}
+
 /// Keeps the road on which the robot came to a crossing. Owned by the caller.
 class RoadsDriven {
  public:
@@ -49,7 +54,12 @@ class RoadsDriven {
   const MapRoad *road_ = nullptr, *came_ = nullptr;
 };
 
-namespace detail {
+/// From the middle of its first crossing to that of its last.
+[[nodiscard]] constexpr float length_m(const MapRoad& road) noexcept {
+  float sum_m = 0.0f;
+  for (std::size_t i = 0; i < road.pieces; ++i) sum_m += road.course[i].length_m;
+  return sum_m;
+}
 
 /// The way along the road from `from_m` to `to_m`, both counted from the middle of its first crossing; the piece that it ends on is its heading.
 [[nodiscard]] constexpr Door way_between(const MapRoad& road, float from_m, float to_m) noexcept {
@@ -66,21 +76,18 @@ namespace detail {
   return way;
 }
 
-}  // namespace detail
+/// Where the robot's centre is when its line sensors are on the stop line out, in m from the middle of that crossing; and where the stop line in is.
+[[nodiscard]] constexpr float begin_of_course_m(const Body& body) noexcept { return 0.5f * body.crossing_m - body.line_ahead_m; }
+[[nodiscard]] constexpr float end_of_course_m(const MapRoad& road, const Body& body) noexcept { return length_m(road) - 0.5f * body.crossing_m; }
 
-/// What to ask of a controller that drives `roads.road()` from its beginning: its course from the robot's centre, whose line sensors are on the
+/// What to ask of a controller that drives `road` from its beginning: its course from the robot's centre, whose line sensors are on the
 /// stop line out, to the stop line in. Crossings are taken to be as large as `body` says. A robot that begins farther on, since it
 /// was set down there or has turned back, is `driven_m` past that beginning. Pieces beyond the eighth are left out, and a road shorter
-/// than its crossings has none, nor has an unknown one: the controllers then follow line and walls, or hold the heading in which they begin.
-/// O(pieces).
-[[nodiscard]] constexpr Task task_along(const RoadsDriven& roads, const Body& body, float driven_m = 0.0f) noexcept {
+/// than its crossings has none: the controllers then follow line and walls, or hold the heading in which they begin. O(pieces).
+[[nodiscard]] constexpr Task task_along(const MapRoad& road, const Body& body, float driven_m = 0.0f) noexcept {
   Task task;
-  if (roads.road() == nullptr) return task;
-  const MapRoad& road = *roads.road();
-  float length_m = 0.0f;
-  for (std::size_t i = 0; i < road.pieces; ++i) length_m += road.course[i].length_m;
-  const float line_m = 0.5f * body.crossing_m, to_m = length_m - line_m;
-  const float from_m = line_m - body.line_ahead_m + greatest(driven_m, 0.0f);
+  const float line_m = 0.5f * body.crossing_m, to_m = end_of_course_m(road, body);
+  const float from_m = begin_of_course_m(body) + greatest(driven_m, 0.0f);
   float passed_m = 0.0f;
   for (std::size_t i = 0; i < road.pieces && task.pieces < kLongestCourse; ++i) {
     const Piece& piece = road.course[i];
@@ -90,10 +97,14 @@ namespace detail {
   }
   task.in_hall = crosses_hall(road) && task.pieces > 0;
   if (!task.in_hall) return task;
-  const Door ahead = detail::way_between(road, from_m, line_m), behind = detail::way_between(road, line_m, from_m);   // one of them has no length
+  const Door ahead = way_between(road, from_m, line_m), behind = way_between(road, line_m, from_m);   // one of them has no length
   task.in = {ahead.x_m - behind.x_m, ahead.y_m - behind.y_m, road.course[0].heading_rad};
-  task.out = detail::way_between(road, from_m, to_m);
+  task.out = way_between(road, from_m, to_m);
   return task;
+}
+/// The same for the road that the robot is on. An unknown one has no course.
+[[nodiscard]] constexpr Task task_along(const RoadsDriven& roads, const Body& body, float driven_m = 0.0f) noexcept {
+  return roads.road() != nullptr ? task_along(*roads.road(), body, driven_m) : Task{};
 }
 
 /// What to ask of a controller that drives over the crossing at which `roads.road()` begins. `turn` is the control line's business. Nothing if

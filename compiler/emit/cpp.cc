@@ -125,6 +125,7 @@ std::string header_body(const CppInput& in) {
   if (has_perception(in)) emit_readings(in, h);
   emit_fuzzy(in, h);
   emit_controllers(in, h);
+  emit_control_lines(in, h);
   emit_limits(in, h);
   return h;
 }
@@ -160,6 +161,7 @@ Cpp cpp(const program::Program& program, const tables::Tables& tables, const Cpp
   h += "#pragma once\n\n#include <cstdint>\n";
   h += program.limits.empty() ? "\n" : "#include <limits>\n\n";
   if (!program.fuzzy.empty()) h += "#include <waymark/runtime/fuzzy_straight.h>\n";
+  if (!program.controls.empty()) h += "#include <waymark/runtime/control_line.h>\n";
   h += options.compact ? "#include <waymark/runtime/compact_mind.h>\n" : "#include <waymark/runtime/mind.h>\n";
   h += has_perception(in) ? "#include <waymark/runtime/perception.h>\n\n" : "\n";
   h += within(declared) + instances(in, "extern ");

@@ -54,6 +54,8 @@ void emit_numbers(std::string& out, std::string_view type, std::string_view name
 
 void emit_facts(const CppInput& in, std::string& out);
 void emit_controllers(const CppInput& in, std::string& out);
+/// The control lines as data (runtime/control_line.h); nothing if there are none.
+void emit_control_lines(const CppInput& in, std::string& out);
 void emit_limits(const CppInput& in, std::string& out);
 /// The class of each fuzzy controller, and what it computes: the tables and, where it is faster, straight C++.
 void emit_fuzzy(const CppInput& in, std::string& out);

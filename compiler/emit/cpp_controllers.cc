@@ -204,6 +204,37 @@ void emit_controllers(const CppInput& in, std::string& out) {
   out += "    default: break;\n  }\n}\n\n";   // never taken; -Wswitch-default demands it
 }
 
+void emit_control_lines(const CppInput& in, std::string& out) {
+  if (in.program.controls.empty()) return;
+  Lines of(in.program.strategies, nullptr);
+  for (const Control& control : in.program.controls) of[index(control.strategy) - in.program.first_strategy()] = &control;
+  std::string arguments, lines;
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < of.size(); ++s) {
+    const std::string_view strategy = in.program.cells[in.program.first_strategy() + s].name;
+    const std::size_t mine = of[s] == nullptr ? 0 : of[s]->arguments.size();
+    const std::string controller = of[s] == nullptr ? "nullptr" : fmt::format("\"{}\"", of[s]->controller);
+    fmt::format_to(Out(lines), "      {{{}, {}, {}}},  // {}\n", controller, mine == 0 ? "nullptr" : fmt::format("kArguments + {}", count), mine, strategy);
+    count += mine;
+    for (std::size_t i = 0; i < mine; ++i) {
+      const Control::Argument& a = of[s]->arguments[i];
+      const std::string value = a.is_number ? fmt::format("\"\", {}, \"{}\"", float_literal(static_cast<float>(a.number)), a.unit) : fmt::format("\"{}\", 0.0f, \"\"", a.word);
+      fmt::format_to(Out(arguments), "      {{\"{}\", {}}},  // {}\n", a.name, value, strategy);
+    }
+  }
+  if (count > 0) arguments = fmt::format("  static constexpr mts::ControlArgument kArguments[] = {{\n{}  }};\n", arguments);
+  fmt::format_to(Out(out),
+                 "/// The `control` line of a strategy as data; null if none names its controller.\n"
+                 "[[nodiscard]] inline const mts::ControlLine* control_line(Strategy strategy) noexcept {{\n{}"
+                 "  static constexpr mts::ControlLine kLines[] = {{\n{}  }};\n"
+                 "  const auto s = static_cast<std::uint32_t>(strategy);\n"
+                 "  return s < {} && kLines[s].controller != nullptr ? &kLines[s] : nullptr;\n}}\n"
+                 "/// That of the strategy that drives; null if none does.\n"
+                 "[[nodiscard]] inline const mts::ControlLine* control_line(const Decision& decision) noexcept {{\n"
+                 "  return decision.drives() ? control_line(decision.strategy()) : nullptr;\n}}\n\n",
+                 arguments, lines, of.size());
+}
+
 void emit_limits(const CppInput& in, std::string& out) {
   if (in.program.limits.empty()) return;
   out +=

@@ -68,7 +68,7 @@ std::string beside_tables(std::string name) {
 Names make_names(const program::Program& program, const tables::Tables& tables) {
   Names names;
   Scope atoms{"Atom", "Decision", "Fact", "Facts", "Index", "Knowledge", "Mind", "Perception", "Readings", "Rule", "Run", "Satellite",
-              "Senses", "Strategy", "drive", "name", "no", "yes"};   // names in the same scope
+              "Senses", "Strategy", "control_line", "drive", "name", "no", "yes"};   // names in the same scope
   const auto identifiers = [](Scope scope, const auto& items) {
     std::vector<std::string> made;
     for (const auto& item : items) made.push_back(scope.make(item.name));
@@ -169,7 +169,7 @@ std::string unit_suffix(std::string_view unit) {
 TypeNames make_type_names(const program::Program& program) {
   TypeNames all;
   Scope& types = all.taken = Scope{"Atom", "Controllers", "Decision", "Fact", "Facts", "Fleet", "Index", "Inputs", "Knowledge", "Mind", "Outputs",
-                                   "Perception", "Readings", "Rule", "Run", "Satellite", "Senses", "Strategy", "drive", "evaluate",
+                                   "Perception", "Readings", "Rule", "Run", "Satellite", "Senses", "Strategy", "control_line", "drive", "evaluate",
                                    "evaluate_tables", "name", "road_of_leg", "speed_limit_m_per_s"};
   const auto field = [](Scope& scope, const std::string& name, const std::string& unit) {
     return scope.make(name + (unit.empty() ? "" : "_" + unit_suffix(unit)));

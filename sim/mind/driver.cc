@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <waymark/controllers/heard.h>
+
 namespace kb::sim {
 
 mts::Body as_driven(mts::Body body, const SensorBuild& range, const DriveLimits& drive) {
@@ -19,7 +21,7 @@ mts::Motion Driver::hear(const mts::Senses& senses, const TagHeard& tag, float p
   perception_.hear(steady_, memories_.of(tag), dt_s, measured);
   const mts::Motion wanted = pilot_.step(steady_, dt_s);
   perception_.tell(pilot_.plight(), pilot_.lost());
-  return slowed(as_.out(wanted), limit_m_s());
+  return mts::slowed(as_.out(wanted), limit_m_s());
 }
 
 /// The limits of its knowledge, and until it leaves a road also those that held there when it took that knowledge.

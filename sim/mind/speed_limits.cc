@@ -1,7 +1,6 @@
 #include "sim/mind/speed_limits.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -40,13 +39,6 @@ SpeedLimits limits_of(const model::Model& model) {
     }
   }
   return limits;
-}
-
-mts::Motion slowed(const mts::Motion& wanted, float limit_m_s) {
-  const float speed_m_s = std::abs(wanted.speed_m_s);
-  if (!(speed_m_s > limit_m_s)) return wanted;
-  const float share = limit_m_s / speed_m_s;
-  return {share * wanted.speed_m_s, share * wanted.turn_rad_s};
 }
 
 }  // namespace kb::sim

@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 
-#include <waymark/controllers/senses.h>
 #include "compiler/model/model.h"
 
 namespace kb::sim {
@@ -36,8 +35,5 @@ class SpeedLimits {
 
 /// The limits that the maps give (`at most`).
 [[nodiscard]] SpeedLimits limits_of(const model::Model& model);
-
-/// The same way at no more than `limit_m_s`: the turn becomes slower with the speed, so that the robot drives the same curve.
-[[nodiscard]] mts::Motion slowed(const mts::Motion& wanted, float limit_m_s);
 
 }  // namespace kb::sim

@@ -1,5 +1,6 @@
 // Uses every controller, so that all of them are compiled without a standard library.
 #include <waymark/controllers/any_controller.h>
+#include <waymark/controllers/pilot.h>
 #include <waymark/controllers/road_map.h>
 #include <waymark/controllers/similarity.h>
 #include <waymark/controllers/steady_ranges.h>
@@ -8,6 +9,7 @@ namespace {
 
 mts::AnyController controller;
 mts::SteadyRanges steady;
+mts::Pilot pilot;
 
 }  // namespace
 
@@ -24,6 +26,11 @@ extern "C" int freestanding_probe_controllers(const mts::Senses* senses, const m
   const mts::MapRoad road{"", "", "", "", name, value, task->course, task->pieces};
   roads.follow(&road);
   controller.start(as.in(value > 1.0f ? *task : mts::task_along(roads, {})), small);
+  const mts::ControlArgument argument{"speed", "", value, "m/s"};
+  const mts::ControlLine line{name, &argument, 1};
+  pilot.choose(&line, &road);
+  pilot.forget_place();
+  const mts::Motion piloted = pilot.step(*senses, 0.01f);
   const mts::Motion motion = as.out(controller.step(steady.step(small, 0.01f), as.in(0.01f, "s")));
-  return static_cast<int>(motion.speed_m_s + motion.turn_rad_s) + static_cast<int>(setting) + (controller.done() || controller.lost());
+  return static_cast<int>(motion.speed_m_s + motion.turn_rad_s + piloted.speed_m_s) + pilot.done() + static_cast<int>(setting) + (controller.done() || controller.lost());
 }

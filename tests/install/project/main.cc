@@ -4,6 +4,7 @@
 #define X 7   // a macro that the project has before it includes anything of Waymark, and wants to have afterwards
 
 #include <waymark/controllers/any_controller.h>
+#include <waymark/controllers/pilot.h>
 #include <waymark/runtime/compact_mind.h>
 #include <waymark/runtime/image_mind.h>
 #include "bumper.kb.h"
@@ -84,7 +85,11 @@ bool knows_its_roads() {
   if (roads.road() != nullptr) return false;
   facts.LM5 = 0.9f;
   static_cast<void>(tick());
-  return roads.road() != nullptr && mts::same_text(roads.road()->from, "LM5") && mts::task_along(roads, {}).pieces == 1 && mts::task_across(roads).exit_heading_rad > 3.14f;
+  mts::Pilot pilot;
+  constexpr mts::ControlLine stands = {"stand", nullptr, 0};
+  pilot.choose(&stands, roads.road());
+  static_cast<void>(pilot.step({}, 0.02f));
+  return pilot.drives() && roads.road() != nullptr && mts::same_text(roads.road()->from, "LM5") && mts::task_along(roads, {}).pieces == 1 && mts::task_across(roads).exit_heading_rad > 3.14f;
 }
 
 }  // namespace

@@ -324,5 +324,26 @@ TEST(Controllers, GetTheirArguments) {
   EXPECT_EQ(log.said, "stop");
 }
 
+TEST(Controllers, AreDataAsWell) {
+  Mind mind;
+  Facts facts;
+  EXPECT_EQ(control_line(mind.tick(facts, milliseconds(10))), nullptr) << "nothing drives";
+  facts.Button.right = 1.0f;
+  const mts::ControlLine* line = control_line(mind.tick(facts, milliseconds(10)));
+  ASSERT_NE(line, nullptr);
+  EXPECT_EQ(line, control_line(Strategy::Drive_right));
+  EXPECT_STREQ(line->controller, "drive");
+  ASSERT_EQ(line->count, 3u);
+  EXPECT_STREQ(line->arguments[0].name, "speed");
+  EXPECT_STREQ(line->arguments[0].word, "");
+  EXPECT_EQ(line->arguments[0].number, 0.2f);
+  EXPECT_STREQ(line->arguments[0].unit, "m/s");
+  EXPECT_STREQ(line->arguments[1].word, "right");
+  EXPECT_STREQ(line->arguments[2].unit, "deg");
+  EXPECT_EQ(control_line(Strategy::Drive_left)->count, 2u);
+  EXPECT_EQ(control_line(Strategy::Stop), nullptr) << "no line names its controller";
+  EXPECT_EQ(control_line(static_cast<Strategy>(77)), nullptr);
+}
+
 }  // namespace
 }  // namespace lamp

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include <waymark/controllers/heard.h>
+
 #include "tests/unit/sim/laboratory.h"
 
 namespace kb::sim::testing {
@@ -57,7 +59,7 @@ route Errand on Works by Go: Dock -> Arch
 }
 
 TEST(SpeedLimits, ASlowedRobotDrivesTheSameCurve) {
-  const mts::Motion slow = slowed({0.4f, 1.0f}, 0.1f), back = slowed({-0.4f, 1.0f}, 0.1f), free = slowed({0.4f, 1.0f}, kNone), spin = slowed({0.0f, 2.0f}, 0.1f);
+  const mts::Motion slow = mts::slowed({0.4f, 1.0f}, 0.1f), back = mts::slowed({-0.4f, 1.0f}, 0.1f), free = mts::slowed({0.4f, 1.0f}, kNone), spin = mts::slowed({0.0f, 2.0f}, 0.1f);
   EXPECT_FLOAT_EQ(slow.speed_m_s, 0.1f);
   EXPECT_FLOAT_EQ(slow.turn_rad_s, 0.25f);
   EXPECT_FLOAT_EQ(back.speed_m_s, -0.1f);

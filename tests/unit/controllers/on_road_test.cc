@@ -1,0 +1,102 @@
+// Where on a road of the map a robot is that has driven, turned back, or left its middle.
+#include <waymark/controllers/on_road.h>
+
+#include <gtest/gtest.h>
+
+namespace mts {
+namespace {
+
+constexpr Piece kElbow[] = {{0.0f, 3.0f}, {0.5f * kPi, 4.0f}}, kElbowBack[] = {{-0.5f * kPi, 4.0f}, {kPi, 3.0f}};
+constexpr MapRoad kElbowOut = {"Arch", "E", "Shelf", "S", "azimuth", kInfinity, kElbow, 2};
+constexpr MapRoad kWayBack = {"Shelf", "S", "Arch", "E", "azimuth", kInfinity, kElbowBack, 2};
+constexpr MapRoad kElbowHall = {"Arch", "E", "Shelf", "S", "open", kInfinity, kElbow, 2};
+constexpr Body kCart{.line_ahead_m = 0.1f, .crossing_m = 0.8f};   // a road begins at 0.3 m
+
+/// Enters `road` and goes straight to a place that is `x_m`, `y_m` from where it entered; there it faces `heading_rad`.
+OnRoad moved(const MapRoad& road, float x_m, float y_m, float heading_rad = 0.0f, const Body& body = kCart) {
+  Senses senses;
+  senses.heading_known = senses.odometry_known = true;
+  OnRoad place(body);
+  place.enter(&road, senses);
+  const float way_m = square_root(x_m * x_m + y_m * y_m), direction_rad = angle_of(x_m, y_m);
+  senses.heading_rad = direction_rad;
+  place.step(senses, 1e6f);   // it takes all the time that it needs to believe the compass
+  for (int i = 0; i < 100; ++i) {
+    senses.speed_m_s = way_m / 100.0f / body.size;   // senses are those of a robot of size 1
+    place.step(senses, 1.0f);
+  }
+  senses.speed_m_s = 0.0f;
+  senses.heading_rad = heading_rad;
+  place.step(senses, 1e6f);
+  return place;
+}
+
+TEST(OnRoad, CountsFromTheMiddleOfTheFirstCrossing) {
+  const OnRoad::Spot spot = moved(kElbowOut, 1.0f, 0.2f).spot();
+  EXPECT_NEAR(spot.along_m, 1.3f, 0.01f);
+  EXPECT_NEAR(spot.left_m, 0.2f, 0.01f);
+  EXPECT_NEAR(spot.x_m, 0.0f, 0.01f);
+  EXPECT_NEAR(spot.y_m, -0.2f, 0.01f);
+  EXPECT_EQ(spot.heading_rad, 0.0f);
+  const OnRoad::Spot corner = moved(kElbowOut, 2.7f, 1.0f).spot();
+  EXPECT_NEAR(corner.along_m, 4.0f, 0.01f) << "round the bend, though it was cut";
+  EXPECT_NEAR(corner.left_m, 0.0f, 0.02f);
+}
+
+TEST(OnRoad, OfALargeRobotCountsInItsOwnMetres) {
+  const OnRoad::Spot spot = moved(kElbowOut, 1.0f, 0.2f, 0.0f, {.size = 4.0f, .line_ahead_m = 0.1f, .crossing_m = 0.8f}).spot();
+  EXPECT_NEAR(spot.along_m, 1.3f, 0.01f);
+  EXPECT_NEAR(spot.left_m, 0.2f, 0.01f);
+}
+
+TEST(OnRoad, IsNowhereThatTheRobotCannotHaveReached) {
+  static constexpr Piece kLoop[] = {{0.0f, 2.0f}, {0.5f * kPi, 2.0f}, {kPi, 2.0f}, {-0.5f * kPi, 1.9f}, {0.0f, 2.0f}};   // comes back to 10 cm from its beginning
+  static constexpr MapRoad kRound = {"A", "E", "B", "W", "azimuth", kInfinity, kLoop, 5};
+  EXPECT_NEAR(moved(kRound, 0.5f, 0.09f).spot().along_m, 0.8f, 0.01f) << "the last piece is nearer";
+}
+
+TEST(OnRoad, ATaskLeadsBackToTheMiddleOrRunsBesideIt) {
+  const OnRoad place = moved(kElbowOut, 1.0f, 0.2f);
+  const Task beside = place.task(false), back = place.task(true);
+  ASSERT_EQ(beside.pieces, 2);
+  EXPECT_NEAR(beside.course[0].length_m, 1.7f, 0.01f);
+  ASSERT_EQ(back.pieces, 3);
+  EXPECT_NEAR(back.course[0].heading_rad, angle_of(0.35f, -0.2f), 0.03f);
+  EXPECT_NEAR(back.course[1].length_m, 1.35f, 0.01f);
+  EXPECT_NEAR(back.course[2].length_m, 3.6f, 0.01f);
+  EXPECT_EQ(moved(kElbowOut, 1.0f, 0.01f).task(true).pieces, 2) << "so near the middle nothing leads back";
+}
+
+TEST(OnRoad, TheDoorsOfAHallAreSeenFromTheRobot) {
+  const Task task = moved(kElbowHall, 1.0f, 0.2f).task(true);
+  ASSERT_TRUE(task.in_hall);
+  EXPECT_NEAR(task.in.x_m, -0.9f, 0.01f);
+  EXPECT_NEAR(task.in.y_m, -0.2f, 0.01f);
+  EXPECT_NEAR(task.out.x_m, 1.7f, 0.01f);
+  EXPECT_NEAR(task.out.y_m, 3.4f, 0.01f);
+}
+
+TEST(OnRoad, TurnedBackItCountsFromTheOtherEnd) {
+  OnRoad place = moved(kElbowOut, 2.7f, 1.0f, -0.5f * kPi);
+  EXPECT_TRUE(place.faces_back());
+  place.turn_back(kWayBack);
+  EXPECT_FALSE(place.faces_back());
+  EXPECT_EQ(place.road(), &kWayBack);
+  EXPECT_NEAR(place.spot().along_m, 3.0f, 0.01f);
+  const Task task = place.task(true);
+  ASSERT_EQ(task.pieces, 2);
+  EXPECT_NEAR(task.course[0].length_m, 1.0f, 0.01f);
+  EXPECT_NEAR(task.course[1].length_m, 2.6f, 0.01f);
+}
+
+TEST(OnRoad, OfAnUnknownRoadNothingIsTold) {
+  OnRoad place(kCart);
+  EXPECT_EQ(place.road(), nullptr);
+  EXPECT_EQ(place.task(true).pieces, 0);
+  EXPECT_FALSE(place.faces_back());
+  place.enter(nullptr, {});
+  EXPECT_EQ(place.task(true).pieces, 0);
+}
+
+}  // namespace
+}  // namespace mts

@@ -1,0 +1,269 @@
+// The pilot between a compiled mind and the wheels: what begins where, what is continued, and a mission in closed loop.
+#include <waymark/controllers/pilot.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "errand.kb.map.h"
+#include "tests/unit/controllers/drives.h"
+#include "tests/unit/controllers/plant.h"
+
+namespace mts {
+namespace {
+
+using plant::Plant;
+
+constexpr ControlArgument kSlow[] = {{"speed", "", 0.2f, "m/s"}};
+constexpr ControlArgument kLeft[] = {{"turn", "left", 0.0f, ""}};
+constexpr ControlArgument kAside[] = {{"side", "right", 0.0f, ""}, {"distance", "", 0.2f, "m"}};
+constexpr ControlArgument kForward[] = {{"turn", "forward", 0.0f, ""}};
+constexpr ControlLine kStraight = {"turn_by_compass", kForward, 1};
+constexpr ControlLine kMove = {"hold_heading", kSlow, 1}, kCross = {"turn_by_compass", kLeft, 1}, kAvoid = {"keep_wall", kAside, 2}, kStop = {"stand", nullptr, 0};
+constexpr Piece kEast[] = {{0.0f, 3.0f}}, kBend[] = {{0.0f, 3.0f}, {0.5f * kPi, 4.0f}}, kBendBack[] = {{-0.5f * kPi, 4.0f}, {kPi, 3.0f}};
+constexpr MapRoad kFirst = {"Dock", "E", "Arch", "W", "azimuth", kInfinity, kEast, 1};
+constexpr Piece kStraightNorth[] = {{0.5f * kPi, 3.0f}};
+constexpr MapRoad kThird = {"Arch", "N", "Mill", "S", "azimuth", kInfinity, kStraightNorth, 1};
+constexpr MapRoad kSecond = {"Arch", "E", "Shelf", "S", "azimuth", 0.1f, kBend, 2};
+constexpr MapRoad kSecondBack = {"Shelf", "S", "Arch", "E", "azimuth", kInfinity, kBendBack, 2};
+
+TEST(Pilot, SaysBeforeTheRobotDrivesWhetherItCanDriveByALine) {
+  const Pilot pilot;
+  EXPECT_EQ(pilot.fits(kMove), Setting::kSet);
+  EXPECT_EQ(pilot.fits(kAvoid), Setting::kSet);
+  EXPECT_EQ(pilot.fits({"drive_by_feel", nullptr, 0}), Setting::kUnknown);
+  constexpr ControlArgument clearance[] = {{"clearance", "", 0.2f, "m"}}, fast[] = {{"speed", "", 2.0f, "m/s"}}, unit[] = {{"speed", "", 0.2f, "m"}};
+  constexpr ControlArgument word[] = {{"turn", "about", 0.0f, ""}}, number[] = {{"side", "", 1.0f, ""}}, no_number[] = {{"speed", "fast", 0.0f, ""}};
+  EXPECT_EQ(pilot.fits({"round_obstacle", clearance, 1}), Setting::kUnknown);
+  EXPECT_EQ(pilot.fits({"hold_heading", fast, 1}), Setting::kOutside);
+  EXPECT_EQ(pilot.fits({"hold_heading", unit, 1}), Setting::kOutside);
+  EXPECT_EQ(pilot.fits({"hold_heading", no_number, 1}), Setting::kOutside);
+  EXPECT_EQ(pilot.fits({"turn_on_line", word, 1}), Setting::kOutside);
+  EXPECT_EQ(pilot.fits({"keep_wall", number, 1}), Setting::kOutside);
+}
+
+TEST(Pilot, ASpeedThatOtherRobotsCanDriveBecomesTheTopSpeedOfASlowerOne) {
+  constexpr ControlArgument usual[] = {{"speed", "", 0.4f, "m/s"}};
+  Body body;
+  body.top_speed_m_s = 0.3f;
+  EXPECT_EQ(Pilot(body).fits({"hold_heading", usual, 1}), Setting::kSet);
+  constexpr ControlArgument large[] = {{"speed", "", 1.2f, "m/s"}};
+  Body large_body = Similarity(4.0f).out(Body{});
+  EXPECT_EQ(Pilot(large_body).fits({"hold_heading", large, 1}), Setting::kSet) << "a robot four times as large drives twice as fast";
+}
+
+/// A robot that faces east, with the same period for mind and wheels.
+struct Trip {
+  explicit Trip(double x, const plant::Floor& floor = {}) : robot(floor, {}, 1) { robot.place(x, 0.0, 0.0); }
+  void drive(double time_s) {
+    for (double t = 0.0; t < time_s; t += 0.02) {
+      last = pilot.step(robot.sense(), 0.02f);
+      robot.drive(last, 0.02);
+    }
+  }
+  Plant robot;
+  Pilot pilot;
+  Motion last;
+};
+
+TEST(Pilot, StandsWhereNothingDrivesAndWhereTheLineIsNotForIt) {
+  Trip trip(0.0);
+  trip.drive(0.5);
+  trip.pilot.choose(nullptr);
+  trip.drive(0.5);
+  EXPECT_FALSE(trip.pilot.drives());
+  constexpr ControlLine own = {"drive_by_feel", nullptr, 0};
+  trip.pilot.choose(&own);
+  trip.drive(0.5);
+  EXPECT_FALSE(trip.pilot.drives());
+  EXPECT_EQ(trip.robot.x, 0.0);
+  trip.pilot.choose(&kMove);
+  EXPECT_FALSE(trip.pilot.drives()) << "it begins with the next period";
+  trip.drive(0.5);
+  EXPECT_TRUE(trip.pilot.drives());
+  EXPECT_GT(trip.robot.x, 0.03);
+}
+
+TEST(Pilot, AManoeuvreThatWasInterruptedIsContinued) {
+  Trip trip(-0.44, plant::crossing_floor({}));
+  trip.pilot.choose(&kMove, &kFirst);
+  trip.drive(0.02);
+  trip.pilot.choose(&kMove, &kThird);   // the sign of the crossing
+  trip.drive(0.02);
+  trip.pilot.choose(&kCross, &kThird);
+  trip.drive(1.5);
+  trip.pilot.choose(&kStop, &kThird);
+  trip.drive(1.0);
+  EXPECT_EQ(trip.last.speed_m_s, 0.0f);
+  trip.pilot.choose(nullptr, &kThird);
+  trip.drive(1.0);
+  trip.pilot.choose(&kCross, &kThird);
+  trip.drive(15.0);
+  EXPECT_TRUE(trip.pilot.done());
+  EXPECT_NEAR(trip.robot.x, 0.0, 0.03) << "begun afresh it would have turned farther on";
+  EXPECT_NEAR(trip.robot.y, 0.35 - 0.09, 0.04);
+  EXPECT_NEAR(trip.robot.heading, std::numbers::pi / 2, 0.05);
+}
+
+TEST(Pilot, AManoeuvreOfAnotherLegBeginsAfresh) {
+  Trip trip(-0.44, plant::crossing_floor({}));
+  trip.pilot.choose(&kStraight, &kFirst);
+  trip.drive(1.5);
+  trip.pilot.choose(&kStop, &kFirst);
+  trip.drive(0.5);
+  trip.pilot.choose(&kStop, &kSecond);
+  trip.robot.place(-0.44, 0.0, 0.0);
+  trip.pilot.choose(&kStraight, &kSecond);
+  trip.drive(8.0);
+  EXPECT_TRUE(trip.pilot.done());
+  EXPECT_NEAR(trip.robot.x, 0.35 - 0.09, 0.03);
+}
+
+TEST(Pilot, WhatBeginsInTheMiddleOfARoadIsToldTheRestOfIt) {
+  Trip trip(0.26);
+  trip.pilot.choose(&kCross, &kSecond);
+  trip.drive(0.02);
+  trip.robot.place(0.26, 0.0, 0.0);
+  trip.pilot.choose(&kMove, &kSecond);
+  trip.drive(1.0);
+  EXPECT_LE(trip.last.speed_m_s, 0.1f) << "the limit of the road";
+  trip.drive(19.0);
+  const OnRoad::Spot here = trip.pilot.place().spot();
+  EXPECT_NEAR(here.along_m, trip.robot.x, 0.02);
+  trip.pilot.choose(&kStop, &kSecond);
+  trip.drive(0.5);
+  trip.robot.heading = 0.3;   // it is pushed aside
+  trip.robot.y += 0.2;
+  trip.pilot.choose(&kMove, &kSecond);
+  trip.drive(60.0);
+  EXPECT_NEAR(trip.robot.x, 3.0, 0.25) << "the bend is where the map has it";
+  EXPECT_NEAR(trip.robot.heading, std::numbers::pi / 2, 0.05);
+  EXPECT_NEAR(trip.robot.y, 4.0 - 0.35 + 0.6, 0.3) << "the end of the course, and `overrun` past it";
+}
+
+TEST(Pilot, ARobotThatHasComeAboutIsToldTheWayBack) {
+  Trip trip(0.26);
+  trip.pilot.choose(&kCross, &kSecond);
+  trip.drive(0.02);
+  trip.robot.place(0.26, 0.0, 0.0);
+  trip.pilot.choose(&kMove, &kSecond);
+  trip.drive(45.0);
+  ASSERT_GT(trip.robot.y, 0.5) << "it is past the bend";
+  constexpr ControlLine round = {"turn_round", nullptr, 0};
+  trip.pilot.choose(&round, &kSecond);
+  trip.drive(6.0);
+  EXPECT_TRUE(trip.pilot.done());
+  EXPECT_NEAR(trip.robot.heading, -std::numbers::pi / 2, 0.05);
+  trip.pilot.choose(&kMove, &kSecondBack);
+  trip.drive(0.1);
+  EXPECT_EQ(trip.pilot.place().road(), &kSecondBack);
+  EXPECT_NEAR(trip.pilot.place().spot().along_m, 4.0 - trip.robot.y, 0.05);
+  trip.drive(60.0);
+  EXPECT_NEAR(std::abs(trip.robot.heading), std::numbers::pi, 0.05);
+  EXPECT_NEAR(trip.robot.y, 0.0, 0.05);
+}
+
+TEST(Pilot, OfARobotThatWasCarriedNothingIsKept) {
+  Trip trip(0.0);
+  trip.pilot.choose(&kCross, &kSecond);
+  trip.drive(0.5);
+  trip.pilot.choose(&kMove, &kSecond);
+  trip.drive(0.5);
+  EXPECT_EQ(trip.pilot.place().road(), &kSecond);
+  trip.pilot.forget_place();
+  trip.pilot.choose(&kMove);
+  trip.drive(0.5);
+  EXPECT_EQ(trip.pilot.place().road(), nullptr);
+  EXPECT_TRUE(trip.pilot.drives());
+}
+
+/// What the floor of errand.kb looks like, with a box before its bend.
+plant::Floor yard(bool box) {
+  plant::Floor floor;
+  floor.add_path({{-1.5, 0.0}, {3.35, 0.0}}, 0.03);
+  for (const double x : {-0.35, 0.35, 2.65, 3.35}) floor.add_path({{x, -0.3}, {x, 0.3}}, 0.05);
+  floor.add_path({{5.7, 3.65}, {6.3, 3.65}}, 0.05);
+  if (box) floor.add_box({4.6, -0.12}, {4.8, 0.12});
+  return floor;
+}
+
+/// A perception that knows where the robot is; it stands for tags, and reads line and range finders as they are. `beside_road`: it goes round
+/// something and has not come back.
+void perceive(const Plant& robot, const Senses& senses, bool beside_road, errand::Facts& facts) {
+  const auto truth = [](bool is) { return is ? 0.9f : -0.9f; };
+  const auto dark = std::count_if(std::begin(senses.line), std::end(senses.line), [](float darkness) { return darkness > 0.5f; });
+  facts.Line = truth(dark >= 4);
+  facts.Track.mark = truth(dark >= 1);
+  facts.Track.dist = -0.9f;
+  facts.Track.azimuth = truth(robot.x > 3.0 && !beside_road);
+  facts.Obst = truth(senses.range_m[0] < 0.4f);
+  facts.Safe = facts.CrossBy.mark = 0.9f;
+  facts.Touched = truth(senses.touched);
+  const auto near = [&](double x, double y) { return std::hypot(robot.x - x, robot.y - y) < 0.7; };
+  facts.Dock = truth(near(0.0, 0.0));
+  facts.Arch = truth(near(3.0, 0.0));
+  facts.Shelf = truth(near(6.0, 4.0));
+  facts.In.W = truth(near(-0.3, 0.0) || near(2.7, 0.0));
+  facts.In.S = truth(near(6.0, 3.7));
+  facts.MoveBy.mark = truth(near(0.0, 0.0));
+  facts.MoveBy.azimuth = truth(near(3.0, 0.0));
+}
+
+struct Mission {
+  double time_s = 0.0, fastest_m_s = 0.0;   ///< the second on the road with a limit
+  bool avoided = false, over = false, touched = false;
+  double x = 0.0, y = 0.0, heading = 0.0;
+};
+
+Mission drive_errand(bool box, const plant::Trial& run) {
+  Plant robot(yard(box), plant::noise_of_level(run.level), run.seed);
+  robot.place(-1.0, 0.0, 0.0);
+  errand::Mind mind;
+  errand::Facts facts;
+  Pilot pilot(robot.body);
+  Mission mission;
+  bool avoids = false;
+  for (std::uint64_t tick = 0; mission.time_s < 120.0 && !mission.over; ++tick) {
+    const Senses senses = robot.sense();
+    perceive(robot, senses, avoids && !pilot.done(), facts);
+    facts.Go = tick == 5 ? 0.9f : -0.9f;
+    const auto decision = mind.tick(facts, milliseconds(static_cast<std::uint32_t>(std::lround(run.dt_s * 1000.0))));
+    pilot.choose(errand::control_line(decision), errand::road_of_leg(mind), errand::speed_limit_m_per_s(mind));
+    const Motion wanted = pilot.step(senses, static_cast<float>(run.dt_s));
+    robot.drive(wanted, run.dt_s);
+    mission.time_s += run.dt_s;
+    avoids = decision.drives() && decision.strategy() == errand::Strategy::Avoid;
+    mission.avoided = mission.avoided || avoids;
+    if (robot.x > 0.5 && robot.x < 2.2) mission.fastest_m_s = std::max(mission.fastest_m_s, static_cast<double>(wanted.speed_m_s));
+    mission.over = tick > 100 && !mind.high(errand::Satellite::Errand);
+  }
+  mission.touched = robot.touched;
+  mission.x = robot.x, mission.y = robot.y, mission.heading = robot.heading;
+  return mission;
+}
+
+TEST(Pilot, DrivesAMissionByControlLinesAndMapAlone) {
+  for (std::uint32_t s = 0; s != errand::Knowledge::kShape.strategies; ++s) {
+    const ControlLine* line = errand::control_line(static_cast<errand::Strategy>(s));
+    ASSERT_NE(line, nullptr);
+    EXPECT_EQ(Pilot().fits(*line), Setting::kSet) << line->controller;
+  }
+  plant::for_each_run([](const plant::Trial& run) {
+    for (const bool box : {false, true}) {
+      const Mission mission = drive_errand(box, run);
+      const std::string which = text(run) + (box ? ", with a box" : "");
+      EXPECT_TRUE(mission.over) << which << " at " << mission.x << ", " << mission.y;
+      EXPECT_FALSE(mission.touched) << which;
+      EXPECT_EQ(mission.avoided, box) << which;
+      EXPECT_LT(mission.fastest_m_s, 0.2501) << which;
+      EXPECT_NEAR(mission.x, 6.0, plant::at({0.08, 0.15, 0.35}, run)) << which;
+      EXPECT_NEAR(mission.heading, std::numbers::pi / 2, plant::at({0.05, 0.1, 0.2}, run)) << which;
+    }
+  });
+}
+
+}  // namespace
+}  // namespace mts
