@@ -127,11 +127,15 @@ class Crossing {
  private:
   struct Headings { float in, out; };
 
-  /// The headings in and out. If the task does not know the entry, it follows from the exit and the turn, unless the compass contradicts
-  /// that; then compass and turn give both.
+  /// The headings in and out. What the task does not know follows from the other and the turn; an entry that contradicts the compass is the
+  /// heading, and then compass and turn give both.
   [[nodiscard]] static Headings headings_of(const Task& task, const Senses& senses) noexcept {
     constexpr float kNear = 40.0f * kRadPerDeg, kSlant = 70.0f * kRadPerDeg;
     const float turn = angle_of_turn(task.turn);
+    if (!task.exit_known) {
+      const float in = task.entry_known ? task.entry_heading_rad : senses.heading_known ? wrapped_angle(senses.heading_rad) : 0.0f;
+      return {in, wrapped_angle(in + turn)};
+    }
     const float guess = wrapped_angle(task.exit_heading_rad - turn);
     Headings headings{task.entry_heading_rad, task.exit_heading_rad};
     if (task.entry_known) return headings;

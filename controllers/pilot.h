@@ -57,6 +57,7 @@ class Pilot {
     const Senses steady = heard(steady_.step(as_.in(senses), dt), body_);
     place_.step(steady, sane_period(dt));
     if (line_ != running_) begin(steady);
+    else if (knows_no_more()) start(steady);
     if (suspended_line_ != nullptr) {
       Senses reckons = steady;
       reckons.line_known = false;
@@ -77,10 +78,11 @@ class Pilot {
   void leave_crossing() noexcept { crossed_ = true; }
   /// The robot was carried: it is on an unknown road, and what was interrupted is not continued. The controller that drives begins afresh.
   void forget_place() noexcept {
-    roads_ = RoadsDriven{};
+    roads_.forget();
     place_ = OnRoad(as_.out(body_));
     suspended_line_ = running_ = nullptr;
     crossed_ = drives_ = changed_ = false;
+    told_m_ = kInfinity;
   }
 
  private:
@@ -122,7 +124,16 @@ class Pilot {
     }
     drives_ = line_ != nullptr && bind(controller_, *line_) == Setting::kSet;
     if (!drives_) return controller_.choose(Id::kStand, body_);
-    controller_.start(as_.in(task(senses)), senses);
+    start(senses);
+  }
+  void start(const Senses& senses) noexcept {
+    const Task all = task(senses);
+    told_m_ = kInfinity;
+    if (all.pieces == kLongestCourse && controller_.id() == Id::kHoldHeading) {
+      told_m_ = place_.spot().along_m;
+      for (std::size_t i = 0; i + 1 < kLongestCourse; ++i) told_m_ += all.course[i].length_m;   // on the last piece
+    }
+    controller_.start(as_.in(all), senses);
   }
 
   /// In metres of the robot.
@@ -131,7 +142,11 @@ class Pilot {
     if (is_manoeuvre(id)) {
       suspended_line_ = nullptr;
       crossed_ = true;
-      return task_across(roads_);
+      Task across = task_across(roads_);
+      if (across.entry_known && senses.heading_known && magnitude(wrapped_angle(senses.heading_rad - across.entry_heading_rad)) > kElsewhere_rad) {
+        across.entry_known = false;   // it did not come by the road of its last leg, whatever carried it here
+      }
+      return across;
     }
     if (id == Id::kTurnRound && place_.road() != nullptr && !crossed_) {
       Task back;
@@ -155,6 +170,11 @@ class Pilot {
     return limit;
   }
 
+  /// Whether the controller comes to the end of what it was told of a road with more bends than a task has room for.
+  [[nodiscard]] bool knows_no_more() const noexcept { return place_.road() != nullptr && told_m_ < kInfinity && place_.spot().along_m > told_m_; }
+
+  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg;
+
   Similarity as_;
   Body body_;                                 // of size 1, as the controllers know it
   Host host_;
@@ -164,6 +184,7 @@ class Pilot {
   RoadsDriven roads_;
   OnRoad place_;
   float limit_m_s_ = kInfinity;
+  float told_m_ = kInfinity;                  // how far along its road the robot gets without being told more
   bool drives_ = false;
   bool crossed_ = false;                      // a manoeuvre has run since the robot last followed a road
   bool changed_ = false;                      // the leg has, since the controller began

@@ -40,10 +40,17 @@ class RoadsDriven {
   /// Call it after each tick of the mind, with what `road_of_leg` says. A leg that another one replaces before it was driven, for its road is
   /// closed, leaves `came` as it is.
   constexpr void follow(const MapRoad* road) noexcept {
-    if (road == nullptr) came_ = nullptr;
-    else if (road_ != nullptr && road != road_ && same_text(road_->to, road->from)) came_ = road_;
+    const bool another = road != road_;
+    if (road == nullptr || (another && carried_)) came_ = nullptr;
+    else if (another && road_ != nullptr && same_text(road_->to, road->from)) came_ = road_;
     else if (came_ != nullptr && !same_text(came_->to, road->from)) came_ = nullptr;
+    carried_ = carried_ && !another;
     road_ = road;
+  }
+  /// The robot was carried. The leg may stay what it was, but the robot does not come to the next crossing on its road.
+  constexpr void forget() noexcept {
+    came_ = nullptr;
+    carried_ = true;
   }
   /// The road that the robot is on or, at a crossing, by which it leaves; null: unknown.
   [[nodiscard]] constexpr const MapRoad* road() const noexcept { return road_; }
@@ -52,6 +59,7 @@ class RoadsDriven {
 
  private:
   const MapRoad *road_ = nullptr, *came_ = nullptr;
+  bool carried_ = false;   // since the leg began
 };
 
 /// From the middle of its first crossing to that of its last.
@@ -82,20 +90,26 @@ class RoadsDriven {
 
 /// What to ask of a controller that drives `road` from its beginning: its course from the robot's centre, whose line sensors are on the
 /// stop line out, to the stop line in. Crossings are taken to be as large as `body` says. A robot that begins farther on, since it
-/// was set down there or has turned back, is `driven_m` past that beginning. Pieces beyond the eighth are left out, and a road shorter
-/// than its crossings has none: the controllers then follow line and walls, or hold the heading in which they begin. O(pieces).
+/// was set down there or has turned back, is `driven_m` past that beginning; NaN is 0. At the stop line in, and on a road shorter than its
+/// crossings, there is 1 cm left. Pieces in one direction are one, and those beyond the eighth are left out. O(pieces).
 [[nodiscard]] constexpr Task task_along(const MapRoad& road, const Body& body, float driven_m = 0.0f) noexcept {
+  constexpr float kLeast_m = 0.01f, kSame_rad = 1e-3f;
   Task task;
   const float line_m = 0.5f * body.crossing_m, to_m = end_of_course_m(road, body);
-  const float from_m = begin_of_course_m(body) + greatest(driven_m, 0.0f);
+  const float from_m = begin_of_course_m(body) + (driven_m > 0.0f ? driven_m : 0.0f);
   float passed_m = 0.0f;
-  for (std::size_t i = 0; i < road.pieces && task.pieces < kLongestCourse; ++i) {
+  for (std::size_t i = 0; i < road.pieces; ++i) {
     const Piece& piece = road.course[i];
     const float left_m = least(passed_m + piece.length_m, to_m) - greatest(passed_m, from_m);
-    if (left_m >= 0.01f) task.course[task.pieces++] = {piece.heading_rad, left_m};
     passed_m += piece.length_m;
+    if (left_m < kLeast_m) continue;
+    Piece* last = task.pieces > 0 ? &task.course[task.pieces - 1] : nullptr;
+    if (last != nullptr && magnitude(wrapped_angle(piece.heading_rad - last->heading_rad)) < kSame_rad) last->length_m += left_m;
+    else if (task.pieces == kLongestCourse) break;
+    else task.course[task.pieces++] = {piece.heading_rad, left_m};
   }
-  task.in_hall = crosses_hall(road) && task.pieces > 0;
+  if (task.pieces == 0) task.course[task.pieces++] = {road.course[road.pieces - 1].heading_rad, kLeast_m};
+  task.in_hall = crosses_hall(road) && to_m > line_m;
   if (!task.in_hall) return task;
   const Door ahead = way_between(road, from_m, line_m), behind = way_between(road, line_m, from_m);   // one of them has no length
   task.in = {ahead.x_m - behind.x_m, ahead.y_m - behind.y_m, road.course[0].heading_rad};
@@ -114,6 +128,7 @@ class RoadsDriven {
   const MapRoad *next = roads.road(), *came = roads.came();
   if (next == nullptr) return task;
   task.exit_heading_rad = next->course[0].heading_rad;
+  task.exit_known = true;
   if (came == nullptr) return task;
   task.entry_heading_rad = came->course[came->pieces - 1].heading_rad;
   task.entry_known = true;

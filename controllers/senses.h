@@ -73,9 +73,10 @@ struct Task {
   Turn turn = Turn::kForward;          ///< manoeuvres: how the crossing is to be driven
   Piece course[kLongestCourse] = {};   ///< roads: the pieces ahead; the first begins where the strategy begins
   std::uint8_t pieces = 0;
-  float exit_heading_rad = 0.0f;       ///< manoeuvres: heading of the road by which the robot leaves the crossing
+  float exit_heading_rad = 0.0f;       ///< manoeuvres: heading of the road by which the robot leaves the crossing, if `exit_known`
+  bool exit_known = false;             ///< if false: the heading of the entry, turned by `turn`
   float entry_heading_rad = 0.0f;      ///< manoeuvres: heading of the road on which it enters, if `entry_known`
-  bool entry_known = false;            ///< if false: the heading at the start, or the one that follows from `turn` and `exit_heading_rad`
+  bool entry_known = false;            ///< if false: the heading at the start, or the one that follows from `turn` and the exit
   float entry_left_m = 0.0f;           ///< manoeuvres: measured distance of the robot's centre to the left of the middle of that road.
                                        ///< Ignored if 0, NaN, 0.5 m or more to either side, or without `entry_known`
   float crossing_m = 0.0f;             ///< manoeuvres: from stop line to stop line; 0: as the `Body` says

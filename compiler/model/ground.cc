@@ -1,5 +1,9 @@
 #include "compiler/model/ground.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace kb::model {
 
 std::optional<std::vector<GroundRoad>> ground_roads(const Model& model, const Map& map) {
@@ -21,6 +25,15 @@ std::optional<std::vector<GroundRoad>> ground_roads(const Model& model, const Ma
     roads.push_back(std::move(made));
   }
   return roads;
+}
+
+std::string ground_lacking(const Model& model, const Map& map) {
+  const auto has_place = [&](RowId landmark) { return model.point_in(model[landmark], "at") != nullptr; };
+  const auto without = std::find_if_not(map.landmarks.begin(), map.landmarks.end(), has_place);
+  if (without != map.landmarks.end() && std::any_of(map.landmarks.begin(), map.landmarks.end(), has_place)) {
+    return fmt::format("place `at` for landmark `{}` of map `{}`", model[*without].name, map.name);
+  }
+  return "map whose landmarks have a place `at` and whose roads have `from`, `to` and `exit`";
 }
 
 }  // namespace kb::model

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct GroundRoad {
 /// The roads of the map, in its order. Nothing if its relations are the user's own and do not say where things lie: landmarks need `at`,
 /// roads `from`, `to` and `exit`. Linear in the map.
 [[nodiscard]] std::optional<std::vector<GroundRoad>> ground_roads(const Model& model, const Map& map);
-/// What such a map has, for messages: "`{file}` has no {kGroundMap}".
-inline constexpr std::string_view kGroundMap = "map whose landmarks have a place `at` and whose roads have `from`, `to` and `exit`";
+/// What `{file}` lacks, for messages: "`{file}` has no {ground_lacking}": the place of one landmark, or such a map at all.
+[[nodiscard]] std::string ground_lacking(const Model& model, const Map& map);
 
 }  // namespace kb::model

@@ -59,6 +59,7 @@ void Programmed::add_crossing(const Labyrinth& labyrinth, const RoutePlan& route
   piece.task.turn = word_for(wrap(exit.heading_rad - came.heading_rad - kPi));
   piece.task.entry_heading_rad = static_cast<float>(wrap(came.heading_rad + kPi));
   piece.task.entry_known = true;
+  piece.task.exit_known = true;
   piece.task.exit_heading_rad = static_cast<float>(wrap(exit.heading_rad));
   piece.task.middle_m = static_cast<float>(came.stop_m);
   piece.task.crossing_m = static_cast<float>(came.stop_m + exit.stop_m);

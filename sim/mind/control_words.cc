@@ -68,8 +68,7 @@ void check_argument(const program::Control& control, const program::Control::Arg
     mts::for_each_parameter(id, [&](const mts::Parameter& known) {
       if (diagnostics::is_slip_of(argument.name, known.name)) meant = known.name;
     });
-    if (!meant) return;
-    const bool given = std::any_of(control.arguments.begin(), control.arguments.end(), [&](const auto& other) { return other.name == *meant; });
+    const bool given = std::any_of(control.arguments.begin(), control.arguments.end(), [&](const auto& other) { return meant && other.name == *meant; });
     diagnostics.report(Kind::kControlArgument, argument.name_span(), {control.controller, argument.name}).suggest(given ? std::nullopt : meant);
     return;
   }

@@ -34,8 +34,8 @@ namespace kb::sim {
 void check_halls(const Knowledge& knowledge, const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
 
 /// Warns (KB1364 to KB1366) of what `kbc sim` would refuse and what is plainly a mistake in a user's own program too: a name one letter
-/// away from that of a controller or of one of its arguments, a number that the controller accepts for no size of robot, and a number of
-/// the wrong quantity. Any other name may belong to a controller in the user's program and is not reported.
+/// away from that of a controller, an argument that the controller of that name does not have, a number that it accepts for no size of robot, and
+/// a number of the wrong quantity. Any other name may belong to a controller in the user's program and is not reported.
 void check_controls(const program::Program& program, diagnostics::Diagnostics& diagnostics);
 
 }  // namespace kb::sim

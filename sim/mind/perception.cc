@@ -65,6 +65,7 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
   hear_way_without_line(way_m);
   if (doing_ != nullptr && phase_ != Phase::kInside) road_.settle(senses_, reckoning_.at, body_, dt_s);
   hear_pushed();
+  hear_told();
   clear_s_ = rounding_ && on_track() ? 0.0f : clear_s_ + dt_s;
 }
 
@@ -199,6 +200,7 @@ void Perception::begin(const Strategy* strategy, bool resumes) {
   if (strategy->drives()) drove_ = strategy;
   if (strategy->doing == Doing::kCross) enter(*strategy, resumes);
   if (strategy->doing == Doing::kMove) set_out();
+  if (road_.pieces() > mts::kLongestCourse) told_to_ = road_.progress(reckoning_.at).piece + mts::kLongestCourse - 2;   // the first piece may lead back to the road
   if (strategy->drives()) rounding_ = false;
   if (strategy->doing == Doing::kRound) {
     round_rad_ = 0.0f;
@@ -235,6 +237,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     task.entry_heading_rad = static_cast<float>(wrap(came.heading_rad + kPi));
     task.entry_known = true;
     const double turned = came.heading_rad + kPi + turn_word(strategy.turn).angle_rad;
+    task.exit_known = true;
     task.exit_heading_rad = static_cast<float>(wrap(exit_ == kNoExit ? turned : memory_->exits[exit_].heading_rad));
     if (beside_m_ > 0.0f) task.entry_left_m = road_.left_of_end_m(reckoning_.at);
     task.middle_m = static_cast<float>(came.stop_m);
@@ -243,6 +246,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
   if (strategy.signless && road_.known()) {
     task.entry_heading_rad = static_cast<float>(road_.end_heading_rad());
     task.entry_known = true;
+    task.exit_known = true;
     task.exit_heading_rad = static_cast<float>(wrap(road_.end_heading_rad() + turn_word(strategy.turn).angle_rad));
   }
   if (strategy.doing == Doing::kAvoid && avoids_) {

@@ -45,7 +45,7 @@ class Perception {
   void hear(const mts::Senses& senses, const TagHeard& tag, float dt_s, bool measured = false);
   /// A strategy begins to drive (or nothing does). `resumes`: it continues a manoeuvre that an obstacle or a halt had interrupted.
   void begin(const Strategy* strategy, bool resumes = false);
-  /// True once if the robot was carried since the strategy began: the controller must then start afresh.
+  /// True once if the robot was carried since the strategy began, or the controller was not told all of its road: it must then start afresh.
   [[nodiscard]] bool begins_anew() { return std::exchange(anew_, false); }
   /// The task of a strategy that begins.
   [[nodiscard]] mts::Task task_for(const Strategy& strategy) const;
@@ -91,6 +91,7 @@ class Perception {
   void hear_carried(float dt_s);
   void forget_place();
   void hear_pushed();
+  void hear_told();
   void hear_range();
   void hear_blindness(float dt_s, bool measured);
   void hear_way_without_line(float way_m);
@@ -175,7 +176,8 @@ class Perception {
   float carried_s_ = 0.0f;                   // how much longer it is reported
   float rest_s_ = 0.0f;                      // without a mission
   bool keeps_place_ = false;
-  bool anew_ = false;                        // it was carried since the strategy began
+  bool anew_ = false;                        // it was carried since the strategy began, or there is more to tell of its road
+  std::size_t told_to_ = 0;                  // the piece of its road on which it is to be told more
   bool set_down_ = false;                    // it was carried, and has not yet entered a crossing since
   float set_down_rad_ = 0.0f;                // facing there
   float round_rad_ = 0.0f, last_heading_rad_ = 0.0f;

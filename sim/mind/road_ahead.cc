@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include <waymark/controllers/angles.h>
 #include <waymark/controllers/line_sight.h>
 
 namespace kb::sim {
@@ -153,8 +154,11 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at, Back back) const {
   double along_m = static_cast<double>(now.along_m);
   const bool beside = now.aside_m > 0.03f && back != Back::kNever;
   const auto add = [&](Spot to) {
-    if (task.pieces == mts::kLongestCourse || distance(here, to) < 0.01) return;
-    task.course[task.pieces++] = {static_cast<float>(heading(to - here)), static_cast<float>(distance(here, to))};
+    if (distance(here, to) < 0.01) return;
+    const mts::Piece piece{static_cast<float>(heading(to - here)), static_cast<float>(distance(here, to))};
+    mts::Piece* last = task.pieces > 0 ? &task.course[task.pieces - 1] : nullptr;
+    if (last != nullptr && std::abs(mts::wrapped_angle(piece.heading_rad - last->heading_rad)) < 1e-3f) last->length_m += piece.length_m;
+    else if (task.pieces < mts::kLongestCourse) task.course[task.pieces++] = piece;
     here = to;
   };
   if (back == Back::kToLine) {   // a zigzag: to the left of the middle, to the right of it, and back

@@ -57,6 +57,8 @@ class RoadAhead {
   [[nodiscard]] bool begins_at(const Memory& memory, std::uint32_t arm) const;
   /// What the landmark's memory says of it; null if nothing is known.
   [[nodiscard]] const Memory::Exit* exit() const { return known() ? &memory_->exits[exit_] : nullptr; }
+  /// Its straight pieces; 0 if nothing is known.
+  [[nodiscard]] std::size_t pieces() const { return known() ? course().size() - 1 : 0; }
   [[nodiscard]] const HallMap* hall() const { return known() ? memory_->exits[exit_].hall.get() : nullptr; }
   /// The end by which it was entered; it must be known.
   [[nodiscard]] RoadEnd entered() const { return {entered_->landmark, entered_->exits[entered_by_].name}; }

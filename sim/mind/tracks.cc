@@ -42,6 +42,16 @@ void Perception::hear_pushed() {
   }
 }
 
+/// A road may have more pieces than a task has room for.
+void Perception::hear_told() {
+  const bool follows = doing_ != nullptr && doing_->doing == Doing::kMove && phase_ == Phase::kOnRoad;
+  if (!follows || road_.pieces() <= told_to_ || road_.pieces() <= mts::kLongestCourse) return;
+  const std::size_t piece = road_.progress(reckoning_.at).piece;
+  if (piece < told_to_) return;
+  anew_ = true;
+  told_to_ = piece + mts::kLongestCourse - 2;
+}
+
 void Perception::write_tracks(std::span<float> facts) const {
   const bool on_road = phase_ == Phase::kOnRoad || (rounding_ && phase_ != Phase::kInside);
   const Progress here = phase_ != Phase::kInside ? road_.progress(reckoning_.at) : Progress{}, now = on_road ? here : Progress{};

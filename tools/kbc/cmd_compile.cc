@@ -148,6 +148,14 @@ void diagnose_left_out(const driver::Compilation& compiled, Session& session) {
   for (const fuzzy::Controller& controller : compiled.program.fuzzy) diagnostics.report(Kind::kNotInImage, controller.declared, {"the fuzzy controller", controller.name});
 }
 
+/// Why there is nothing for `--map` to write.
+std::string roads_lacking(const model::Model& model) {
+  for (const model::Map& map : model.maps) {
+    if (!model::ground_roads(model, map)) return model::ground_lacking(model, map);
+  }
+  return "route that leads along a road of a map";
+}
+
 Files emit_files(const CompileOptions& options, const driver::Compilation& compiled, const std::vector<std::string>& names,
                  const std::string& name_space, Session& session) {
   if (options.form == "json") return {{names[0], program::print_json(compiled.program)}};
@@ -168,7 +176,7 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
     files.push_back({names[3], std::move(fleet.source)});
   }
   if (options.map) files.push_back({names.back(), emit::cpp_map(compiled.model, compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(0)})});
-  if (files.back().bytes.empty()) session.report(Kind::kGraphNothing, {options.file, fmt::format("route over a {}", model::kGroundMap)});
+  if (files.back().bytes.empty()) session.report(Kind::kGraphNothing, {options.file, roads_lacking(compiled.model)});
   return files;
 }
 

@@ -37,7 +37,7 @@ std::optional<layout::Layout> layout_of(const model::Model& model, const model::
     else made.places.push_back({std::string(model[id].name), "", {at->x, at->y}, {}});
   }
   if (!roads) {
-    diagnostics.report(diagnostics::Kind::kGraphNothing, {}, {options.file, model::kGroundMap});
+    diagnostics.report(diagnostics::Kind::kGraphNothing, {}, {options.file, model::ground_lacking(model, map)});
     return std::nullopt;
   }
   for (const model::GroundRoad& road : *roads) {

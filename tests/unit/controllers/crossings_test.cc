@@ -28,6 +28,7 @@ Pose cross(Controller controller, const CrossingPlan& plan, Turn turn, const Tri
   Task task;
   task.turn = turn;
   const double out = plan.slant_rad + heading_out(turn);
+  task.exit_known = true;
   task.exit_heading_rad = static_cast<float>(std::remainder(out, 4.0 * kQuarter));
   task.entry_heading_rad = static_cast<float>(plan.slant_rad);
   task.entry_known = true;
@@ -93,6 +94,7 @@ void expect_done(Plant& plant, Turn turn, double out_rad) {
   TurnOnLine controller;
   Task task;
   task.turn = turn;
+  task.exit_known = true;
   task.exit_heading_rad = static_cast<float>(out_rad);
   task.entry_known = true;
   task.crossing_m = 0.9f;
@@ -164,6 +166,7 @@ void expect_return(const CrossingPlan& plan, double aside_m, double bound_m) {
         Task task;
         task.turn = turn;
         const double out = heading_out(turn);
+        task.exit_known = true;
         task.exit_heading_rad = static_cast<float>(out);
         task.entry_known = true;
         task.entry_left_m = static_cast<float>(aside) + 0.02f;   // odometry is not exact
@@ -217,6 +220,7 @@ TEST(TurnByCompass, EndsByOdometryWhereTheLineSensorsAreSilent) {
   TurnByCompass controller;
   Task task;
   task.turn = Turn::kLeft;
+  task.exit_known = true;
   task.exit_heading_rad = static_cast<float>(kQuarter);
   const auto deaf = [&] {
     Senses senses = plant.sense();
@@ -230,6 +234,28 @@ TEST(TurnByCompass, EndsByOdometryWhereTheLineSensorsAreSilent) {
   EXPECT_NEAR(plant.x, 0.0, 0.03);
 }
 
+// Where the map says nothing, the exit is where the turn leads from the robot's own direction, and not in the east.
+TEST(TurnByCompass, TurnsByItsOwnHeadingWhereNoExitIsTold) {
+  for (const auto& [turn, by] : {std::pair(Turn::kForward, 0.0), std::pair(Turn::kLeft, kQuarter), std::pair(Turn::kRight, -kQuarter)}) {
+    for (const double heading : {0.35, 1.05, -0.8, 3.0}) {
+      Plant plant({}, {}, 1);
+      plant.place(0.0, 0.0, heading);
+      TurnByCompass controller;
+      Task task;
+      task.turn = turn;
+      controller.start(task, plant.sense());
+      const auto deaf = [&] {
+        Senses senses = plant.sense();
+        senses.line_known = false;
+        return senses;
+      };
+      for (double t = 0.0; t < 15.0 && !controller.done(); t += 0.01) plant.drive(controller.step(deaf(), 0.01f), 0.01);
+      EXPECT_TRUE(controller.done());
+      EXPECT_NEAR(std::remainder(plant.heading - heading - by, 4.0 * kQuarter), 0.0, 0.05) << heading;
+    }
+  }
+}
+
 // Stop lines need not lie equally far from the middle: where roads leave at a sharp angle, theirs lie farther out.
 TEST(TurnByCompass, TurnsInTheMiddleWhereverTheStopLinesLie) {
   for (const double in : {0.35, 0.9}) {
@@ -241,6 +267,7 @@ TEST(TurnByCompass, TurnsInTheMiddleWhereverTheStopLinesLie) {
     TurnByCompass controller;
     Task task;
     task.turn = Turn::kLeft;
+    task.exit_known = true;
     task.exit_heading_rad = static_cast<float>(kQuarter);
     task.entry_known = true;
     task.crossing_m = 1.25f;
@@ -264,6 +291,7 @@ void expect_turned_into(double degrees, double line_m, double start_m, Task task
   plant.place(-start_m, 0.0, 0.0);
   TurnByCompass controller;
   task.turn = Turn::kLeft;
+  task.exit_known = true;
   task.exit_heading_rad = static_cast<float>(out);
   controller.start(task, plant.sense());
   drive_until(controller, plant, 0.01, 10.0, [&](double) { return controller.done() || controller.lost(); });

@@ -27,6 +27,7 @@ constexpr Piece kEast[] = {{0.0f, 3.0f}}, kBend[] = {{0.0f, 3.0f}, {0.5f * kPi, 
 constexpr MapRoad kFirst = {"Dock", "E", "Arch", "W", "azimuth", kInfinity, kEast, 1};
 constexpr Piece kStraightNorth[] = {{0.5f * kPi, 3.0f}};
 constexpr MapRoad kThird = {"Arch", "N", "Mill", "S", "azimuth", kInfinity, kStraightNorth, 1};
+constexpr MapRoad kElsewhere = {"Hill", "S", "Arch", "N", "azimuth", kInfinity, kBendBack, 1};
 constexpr MapRoad kSecond = {"Arch", "E", "Shelf", "S", "azimuth", 0.1f, kBend, 2};
 constexpr MapRoad kSecondBack = {"Shelf", "S", "Arch", "E", "azimuth", kInfinity, kBendBack, 2};
 
@@ -164,6 +165,31 @@ TEST(Pilot, ARobotThatHasComeAboutIsToldTheWayBack) {
   trip.drive(60.0);
   EXPECT_NEAR(std::abs(trip.robot.heading), std::numbers::pi, 0.05);
   EXPECT_NEAR(trip.robot.y, 0.0, 0.05);
+}
+
+TEST(Pilot, ARoadWithMoreBendsThanATaskHoldsIsToldInParts) {
+  Piece zigzag[13];
+  for (std::size_t i = 0; i < 13; ++i) zigzag[i] = {i % 2 == 0 ? 0.0f : 0.5f * kPi, 1.5f};
+  const MapRoad road = {"A", "E", "B", "W", "azimuth", kInfinity, zigzag, 13};
+  Trip trip(0.26);
+  trip.pilot.choose(&kCross, &road);
+  trip.drive(0.02);
+  trip.robot.place(0.26, 0.0, 0.0);
+  trip.pilot.choose(&kMove, &road);
+  trip.drive(150.0);
+  EXPECT_TRUE(trip.pilot.drives());
+  EXPECT_NEAR(trip.robot.x, 7.0 * 1.5 - 0.35 + 0.6, 0.3) << "the end of the course, and `overrun` past it";
+  EXPECT_NEAR(trip.robot.y, 6.0 * 1.5, 0.1);
+}
+
+TEST(Pilot, ARobotThatComesFromElsewhereTurnsByItsOwnHeading) {
+  Trip trip(-0.44, plant::crossing_floor({}));
+  trip.pilot.choose(&kMove, &kElsewhere);
+  trip.drive(0.02);
+  trip.pilot.choose(&kCross, &kThird);   // left, as the rules say of a robot that they have seen come from the west
+  trip.drive(15.0);
+  EXPECT_TRUE(trip.pilot.done());
+  EXPECT_NEAR(trip.robot.heading, std::numbers::pi / 2, 0.05);
 }
 
 TEST(Pilot, OfARobotThatWasCarriedNothingIsKept) {

@@ -187,6 +187,7 @@ TEST(AnyController, TheTurnOfAControlLineGoesBeforeThatOfTheTask) {
   AnyController controller;
   controller.choose(ControllerId::kTurnByCompass, {.has_range_finders = false});
   EXPECT_EQ(controller.set("turn", static_cast<float>(Turn::kLeft)), Setting::kSet);
+  task.exit_known = true;
   task.exit_heading_rad = 0.5f * kPi;
   controller.start(task, senses);
   senses.speed_m_s = 0.25f;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/controllers/drives.h"
+
 namespace mts {
 namespace {
 
@@ -32,15 +34,20 @@ TEST(RoadMap, WhatIsBehindTheRobotIsNotInItsCourse) {
   const Task bend = task_along(on(kBent), kBody, 3.0f);
   ASSERT_EQ(bend.pieces, 1);
   EXPECT_NEAR(bend.course[0].length_m, 3.3f, 1e-6f);
-  EXPECT_EQ(task_along(on(kBent), kBody, 7.0f).pieces, 0);
+  const Task end = task_along(on(kBent), kBody, 7.0f);
+  ASSERT_EQ(end.pieces, 1) << "a road at its end is no unknown one, on which a controller would go on by itself";
+  EXPECT_EQ(end.course[0].heading_rad, 0.5f * kPi);
+  EXPECT_EQ(end.course[0].length_m, 0.01f);
   EXPECT_EQ(task_along(on(kBent), kBody, -1.0f).course[0].length_m, task_along(on(kBent), kBody).course[0].length_m);
+  EXPECT_EQ(task_along(on(kBent), kBody, plant::kNaN).course[0].length_m, task_along(on(kBent), kBody).course[0].length_m);
 }
 
-TEST(RoadMap, ARoadShorterThanItsCrossingsHasNoCourse) {
+TEST(RoadMap, OfARoadShorterThanItsCrossingsHardlyAnythingIsLeft) {
   static constexpr Piece kShort[] = {{0.0f, 0.5f}};
   constexpr MapRoad road = {"A", "E", "B", "W", "open", kInfinity, kShort, 1};
   const Task task = task_along(on(road), kBody);
-  EXPECT_EQ(task.pieces, 0);
+  ASSERT_EQ(task.pieces, 1);
+  EXPECT_EQ(task.course[0].length_m, 0.01f);
   EXPECT_FALSE(task.in_hall);
 }
 
@@ -51,6 +58,14 @@ TEST(RoadMap, OfARoadWithManyBendsTheFirstPiecesAreTold) {
   const Task task = task_along(on(road), kBody);
   EXPECT_EQ(task.pieces, kLongestCourse);
   EXPECT_EQ(task.course[7].heading_rad, 1.0f);
+}
+
+TEST(RoadMap, PiecesInOneDirectionAreOne) {
+  static constexpr Piece kSameWay[] = {{0.5f, 1.0f}, {0.5f, 1.0f}, {0.5f, 1.0f}, {1.0f, 1.0f}};
+  constexpr MapRoad road = {"A", "E", "B", "W", "azimuth", kInfinity, kSameWay, 4};
+  const Task task = task_along(on(road), kBody);
+  ASSERT_EQ(task.pieces, 2);
+  EXPECT_NEAR(task.course[0].length_m, 2.7f, 1e-6f);
 }
 
 TEST(RoadMap, TheDoorsOfAHallAreItsStopLinesSeenFromTheRobot) {
@@ -80,7 +95,9 @@ TEST(RoadMap, ACrossingIsLeftInTheDirectionOfTheNextRoad) {
   RoadsDriven roads;
   EXPECT_EQ(task_along(roads, kBody).pieces, 0);
   EXPECT_FALSE(task_across(roads).entry_known);
+  EXPECT_FALSE(task_across(roads).exit_known);
   roads.follow(&kBent);
+  EXPECT_TRUE(task_across(roads).exit_known);
   EXPECT_EQ(task_across(roads).exit_heading_rad, 0.0f);
   EXPECT_FALSE(task_across(roads).entry_known);   // nobody knows how it came to Arch
   for (const MapRoad* leaves : {&kStore, &kYard}) {
@@ -100,6 +117,11 @@ TEST(RoadMap, ARobotThatIsElsewhereDoesNotKnowHowItCameThere) {
   roads.follow(&kNext);
   roads.follow(&kFar);
   EXPECT_EQ(roads.came(), nullptr);
+  roads.follow(&kBent);
+  roads.forget();
+  roads.follow(&kBent);
+  roads.follow(&kNext);
+  EXPECT_EQ(roads.came(), nullptr) << "it was carried while its leg was that";
   roads.follow(nullptr);
   EXPECT_EQ(roads.road(), nullptr);
   roads.follow(&kBent);
