@@ -44,7 +44,7 @@ std::string_view fault_of(const std::string& name) {
   if (name.back() == '_' || name.find("__") != std::string::npos) return "it ends in `_` or `-`, or has two of them side by side";
   const std::string lower = source::lower(name);
   if (lower == "map") return "the file `map.kb` of the project is its map";
-  if (name == "sense" || name == "Controllers") return "`main.cc` of the project has this name for something else";
+  if (name == "sense" || name == "can_drive") return "`main.cc` of the project has this name for something else";
   if (is_target_of_cmake(lower)) return "CMake has a target of this name";
   return is_namespace(name) ? "" : "it is a word of C++, a name of its C library, or one of the namespaces `std`, `mts` and `kb`";
 }

@@ -1,35 +1,18 @@
-// The program of the robot: the sensors' facts in, one controller out, at every tick.
+// The program of the robot: what its sensors say in, the motion of its wheels out.
 //
-// Without a robot at hand it rehearses the first seconds of the mission, and prints what would be driven.
+// Without a robot at hand it rehearses the first seconds of the mission, and prints what the wheels would be told.
+#include <cstdint>
 #include <cstdio>
 
-#include "@NAME@.kb.h"
+#include <waymark/controllers/pilot.h>
+
+#include "@NAME@.kb.map.h"
 
 namespace {
 
-// What turns the wheels: a function for each controller that @NAME@.kb names. Forgetting one does not compile.
-struct Controllers {
-  void follow_line(const @NAME@::FollowLine& how) { say("follow the painted line", how.speed_m_per_s); }
-  void keep_wall(const @NAME@::KeepWall& how) { say("drive between the walls", how.speed_m_per_s); }
-  void hold_heading(const @NAME@::HoldHeading& how) { say("drive by the compass", how.speed_m_per_s); }
-  void turn_on_line(const @NAME@::TurnOnLine& how) { say("cross on the line", how.speed_m_per_s); }
-  void turn_by_walls(const @NAME@::TurnByWalls& how) { say("cross by the walls", how.speed_m_per_s); }
-  void turn_by_compass(const @NAME@::TurnByCompass& how) { say("cross by the compass", how.speed_m_per_s); }
-  void round_obstacle(const @NAME@::RoundObstacle& how) { say("go round the obstacle", how.speed_m_per_s); }
-  void look_round(const @NAME@::LookRound&) { say("look round for a sign", 0.0f); }
-  void stand(const @NAME@::Stand&) { say("stand", 0.0f); }
-  void idle() { say("stand", 0.0f); }   // no strategy runs
-
-  void say(const char* what, float speed) {
-    doing = what;
-    speed_m_per_s = speed;
-  }
-  const char* doing = "";
-  float speed_m_per_s = 0.0f;
-};
-
-// In place of sensors. A fact is how certain it is: 1 surely so, -1 surely not, 0 nothing known.
-void sense(int tick, @NAME@::Facts& facts) {
+// In place of sensors: the facts that the mind decides by, each with how certain it is (1 surely so, -1 surely not, 0 nothing known), and
+// the readings that the controllers drive by.
+void sense(int tick, @NAME@::Facts& facts, mts::Senses& senses) {
   const bool sign = tick >= 7 && tick < 12;          // the dock's sign is in view
   const bool line = tick >= 10 && tick < 12;         // its stop line is under the robot
   facts.Fetch = tick == 2 ? 1.0f : 0.0f;             // the button is pressed for a moment
@@ -39,6 +22,25 @@ void sense(int tick, @NAME@::Facts& facts) {
   facts.CrossBy.mark = sign ? 0.9f : 0.0f;           // the crossing has a painted line too
   facts.Safe = sign ? 0.9f : 0.0f;
   facts.Line = line ? 0.9f : 0.0f;
+
+  for (float& darkness : senses.line) darkness = line ? 1.0f : 0.0f;
+  senses.line[2] = 1.0f;                             // the painted line is under the middle sensor
+  for (float& range_m : senses.range_m) range_m = mts::kOutOfRange;   // nothing stands near
+  senses.heading_rad = 0.5f * mts::kPi;              // it faces north
+  senses.line_known = senses.range_known = senses.heading_known = senses.odometry_known = true;
+}
+
+// Whether all controllers that @NAME@.kb names are Waymark's, with parameters that this robot can have. To drive by functions of your own, see
+// `@NAME@::drive` in the generated header.
+bool can_drive(const mts::Pilot& pilot) {
+  for (std::uint32_t i = 0; i < @NAME@::Knowledge::kShape.strategies; ++i) {
+    const auto strategy = static_cast<@NAME@::Strategy>(i);
+    const mts::ControlLine* line = @NAME@::control_line(strategy);
+    if (line != nullptr && pilot.fits(*line) == mts::Setting::kSet) continue;
+    std::printf("nothing can drive %s\n", @NAME@::name(strategy));
+    return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -46,12 +48,17 @@ void sense(int tick, @NAME@::Facts& facts) {
 int main() {
   @NAME@::Mind mind;
   @NAME@::Facts facts;
-  Controllers controllers;
+  mts::Senses senses;
+  mts::Pilot pilot{mts::Body{}};   // measure your robot: waymark/controllers/body.h
+  if (!can_drive(pilot)) return 1;
   for (int tick = 0; tick < 14; ++tick) {
-    sense(tick, facts);
+    sense(tick, facts, senses);
     const auto decision = mind.tick(facts, mts::milliseconds(200));
-    @NAME@::drive(decision, controllers);
-    std::printf("%4.1f s  %-24s %.1f m/s\n", 0.2 * tick, controllers.doing, static_cast<double>(controllers.speed_m_per_s));
+    pilot.choose(@NAME@::control_line(decision), @NAME@::road_of_leg(mind));
+    mts::Motion wheels;
+    for (int period = 0; period < 10; ++period) wheels = pilot.step(senses, 0.02f);
+    std::printf("%4.1f s  %-20s %.2f m/s, %.0f deg/s\n", 0.2 * tick, decision.drives() ? @NAME@::name(decision.strategy()) : "-",
+                static_cast<double>(wheels.speed_m_s), static_cast<double>(wheels.turn_rad_s / mts::kRadPerDeg));
   }
   return mind.decision().strategy() == @NAME@::Strategy::Cross_right_mark ? 0 : 1;
 }
