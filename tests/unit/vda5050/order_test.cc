@@ -247,6 +247,40 @@ TEST_F(Orders, ActionsOfTheHorizonWaitAndGoWithIt) {
   refuses(json, "validationError", "actionId `p` already");
 }
 
+TEST_F(Yard, AnOrderThatBeginsElsewhereThanTheFirstSignSaysIsGivenUp) {
+  look();
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  progress.task = vehicle.task().number;
+  progress.on_mission = true;
+  progress.speed_m_s = 0.5;
+  look();
+  EXPECT_EQ(errors(), "");
+  progress.here = "L2";
+  look();
+  EXPECT_EQ(errors(), "orderError cannotGoOn");
+  EXPECT_EQ(state["errors"][0]["errorDescription"], "the order begins at node `n1`; the sign that the vehicle reads is that of `n2`");
+  EXPECT_EQ(way(), "") << "it is not driven any farther";
+  stop();
+  instruct("c", "cancelOrder");
+  EXPECT_EQ(status("c"), "FINISHED");
+  EXPECT_EQ(errors(), "orderError");
+  look();
+  EXPECT_EQ(state["lastNodeId"], "n2");
+  say("order", order("B", 0, {"n2", "n3"}));
+  EXPECT_EQ(errors(), "");
+  drive();
+  EXPECT_EQ(state["lastNodeId"], "n3");
+}
+
+TEST_F(Yard, AnOrderToStayThatTheFirstSignContradictsIsOver) {
+  look();
+  say("order", order("A", 0, {"n1"}));
+  progress.here = "L2";
+  look();
+  EXPECT_EQ(errors(), "orderError") << "there is nothing to cancel";
+  EXPECT_EQ(state["lastNodeId"], "n2");
+}
+
 TEST_F(Orders, MessagesForOthersAndOfOtherVersionsAreRefused) {
   Json json = order("A", 0, {"n1", "n2"});
   refuses(with_header(json, "8"), "validationError", "another vehicle");

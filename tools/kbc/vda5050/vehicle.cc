@@ -104,14 +104,14 @@ void Vehicle::State::complain_of_late(const Order& order) {
 }
 
 void Vehicle::State::begin(Order order) {
-  const bool lost = where().empty();   // just switched on, it has yet to come to the first node
+  believed = where().empty();   // just switched on, it has yet to come to the first node
   actions.forget_order();
   actions.plan(order.nodes, order.edges, true);
   stretch.close();
   gave_up = on_mission = was_on_mission = false;
   passed_m = 0.0;
   book.begin(std::move(order));
-  if ((beyond() != nullptr || lost) && !book.nodes().front().actions.empty()) book.go_back();   // see note [beyond a node]
+  if ((beyond() != nullptr || believed) && !book.nodes().front().actions.empty()) book.go_back();   // see note [beyond a node]
   else actions.trigger(ActionState::Origin::kNode, book.last_sequence());
 }
 
