@@ -247,6 +247,27 @@ TEST_F(Orders, ActionsOfTheHorizonWaitAndGoWithIt) {
   refuses(json, "validationError", "actionId `p` already");
 }
 
+TEST_F(Orders, NodesLieWhereTheOrderSays) {
+  Json json = order("A", 0, {"n1", "n2"});
+  const auto lies = [&json](double x_m, double y_m, const std::string& map) -> Json& {
+    return json["nodes"][1]["nodePosition"] = {{"x", x_m}, {"y", y_m}, {"mapId", map}};
+  };
+  lies(6, 0, "cellar");
+  refuses(json, "noRouteError", "node `n2` is on map `cellar`; the positions of this vehicle are on map `yard`");
+  lies(6, 0.6, "yard");
+  refuses(json, "noRouteError", "node `n2` lies at (6.00, 0.00), 0.60 m from where the order says");
+  json["nodes"][1]["nodePosition"]["allowedDeviationXY"] = "wide";
+  refuses(json, "validationError", "nodes[1].nodePosition.allowedDeviationXY is a string, not a number");
+  json["nodes"][1]["nodePosition"].erase("x");
+  refuses(json, "validationError", "nodes[1].nodePosition.x is missing");
+  json["nodes"][1]["nodePosition"] = Json::array();
+  refuses(json, "validationError", "nodes[1].nodePosition is a list, not an object");
+  lies(6, 0.6, "yard")["allowedDeviationXY"] = 1;
+  say("order", json);
+  EXPECT_EQ(errors(), "");
+  EXPECT_EQ(state["orderId"], "A");
+}
+
 TEST_F(Yard, AnOrderThatBeginsElsewhereThanTheFirstSignSaysIsGivenUp) {
   look();
   say("order", order("A", 0, {"n1", "n2", "n3"}));

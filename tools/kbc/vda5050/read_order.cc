@@ -95,6 +95,14 @@ class Reader {
     wrong(fmt::format("{}{} is {}, not a whole number from 0 to 4294967295", where, key, clipped(value->text)));
     return 0;
   }
+  [[nodiscard]] double number(const Json& object, const char* key, const std::string& where) {
+    const Json* value = need(object, key, where, Json::Kind::kNumber);
+    return value != nullptr ? value->number : 0.0;
+  }
+  /// The object of that name; null if it is not there.
+  [[nodiscard]] const Json* part(const Json& object, const char* key, std::string_view where) {
+    return object.find(key) != nullptr ? need(object, key, where, Json::Kind::kObject) : nullptr;
+  }
   /// 0 if it is not there.
   [[nodiscard]] double speed(const Json& object, const char* key, std::string_view where) {
     if (object.find(key) == nullptr) return 0.0;
@@ -187,9 +195,21 @@ std::vector<Action> read_actions(Reader& reader, const Json& json, const char* k
   return actions;
 }
 
+std::optional<NodePosition> read_node_position(Reader& reader, const Json& node, const std::string& where) {
+  const Json* json = reader.part(node, "nodePosition", where);
+  if (json == nullptr) return std::nullopt;
+  const std::string within = where + "nodePosition.";
+  NodePosition position;
+  position.x_m = reader.number(*json, "x", within);
+  position.y_m = reader.number(*json, "y", within);
+  if (json->find("mapId") != nullptr) position.map = reader.text(*json, "mapId", within);
+  if (json->find("allowedDeviationXY") != nullptr) position.deviation_m = reader.number(*json, "allowedDeviationXY", within);
+  return position;
+}
+
 Node read_node(Reader& reader, const Json& json, const std::string& where) {
   return {reader.name(json, "nodeId", where), reader.count(json, "sequenceId", where), reader.truth(json, "released", where),
-          read_actions(reader, json, "actions", where, kMostActions)};
+          read_actions(reader, json, "actions", where, kMostActions), {}, read_node_position(reader, json, where)};
 }
 
 Edge read_edge(Reader& reader, const Json& json, const std::string& where) {
