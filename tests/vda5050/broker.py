@@ -7,6 +7,7 @@ COMMAND is the vehicle Acme/7 with the floor of town.kb, as `kbc drive` would be
 `{broker}` in an argument becomes the URL of the broker. Exit code 77: mosquitto or paho-mqtt is not installed.
 """
 import datetime
+import fcntl
 import json
 import os
 import pathlib
@@ -27,6 +28,7 @@ except ImportError:
 DEBIAN = '/usr/bin/python3'   # sees Debian's packages, as another Python on the PATH does not
 MOSQUITTO = shutil.which('mosquitto') or shutil.which('mosquitto', path='/usr/sbin:/usr/local/sbin')
 LONGEST = 60.0   # seconds; a machine may be busy
+MOST_BYTES, MOST_WAITING = 4 << 20, 64
 PERIOD = 0.02    # of a control period
 VEHICLE = 'uagv/v2/Acme/7'
 HEADER = ('headerId', 'timestamp', 'version', 'manufacturer', 'serialNumber')
@@ -142,6 +144,11 @@ class Master:
                                                   'actionParameters': [{'key': key, 'value': value} for key, value in parameters.items()]}]})
 
 
+def is_of_now(message):
+    then = datetime.datetime.fromisoformat(message['timestamp'].replace('Z', '+00:00'))
+    return abs((datetime.datetime.now(datetime.timezone.utc) - then).total_seconds()) < LONGEST
+
+
 def retained_connection(broker):
     """What a master that comes later hears of the vehicle at once."""
     late = Master(broker)
@@ -153,36 +160,68 @@ def retained_connection(broker):
 class Robot:
     """The vehicle's process, and a robot that stands at the Inn and says so every 20 ms."""
 
-    def __init__(self, command, broker):
-        self.process = subprocess.Popen([part.replace('{broker}', broker.url) for part in command], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    def __init__(self, command, broker, stderr=None):
+        self.process = subprocess.Popen([part.replace('{broker}', broker.url) for part in command], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=stderr)
         self.said, self.ends = {'vehicle': {'battery': 80}}, threading.Event()   # what stands in each line besides the senses
         self.speaks = threading.Event()   # its clock stands still while it does not
         self.speaks.set()
         self.answers = 0
+        self.t = 0.0
+        self.alone = threading.Lock()     # whoever speaks for the robot
         self.thread = threading.Thread(target=self._stand)
         self.thread.start()
 
     def _stand(self):
-        t = 0.0
         try:
             while not self.ends.is_set():
                 self.speaks.wait()
-                t += PERIOD
-                line = {'t': round(t, 2), 'line': [0.05, 0.05, 0.95, 0.05, 0.05], 'range_m': [4] * 8, 'compass_rad': 0, 'odometry_x_m': 0, 'odometry_y_m': 0,
-                        'odometry_m_s': 0, 'odometry_turned_rad': 0, 'touched': False, 'tag': {'landmark': 'Inn', 'exit': 'E'}, **self.said}
-                self.process.stdin.write(json.dumps(line).encode() + b'\n')
-                self.process.stdin.flush()
-                if not self.process.stdout.readline():
-                    return
+                with self.alone:
+                    self._say()
+                    if not self.process.stdout.readline():
+                        return
                 self.answers += 1
                 time.sleep(PERIOD)
         except (BrokenPipeError, ValueError):
             return
 
+    def _say(self):
+        self.t += PERIOD
+        line = {'t': round(self.t, 2), 'line': [0.05, 0.05, 0.95, 0.05, 0.05], 'range_m': [4] * 8, 'compass_rad': 0, 'odometry_x_m': 0, 'odometry_y_m': 0,
+                'odometry_m_s': 0, 'odometry_turned_rad': 0, 'touched': False, 'tag': {'landmark': 'Inn', 'exit': 'E'}, **self.said}
+        self.process.stdin.write(json.dumps(line).encode() + b'\n')
+        self.process.stdin.flush()
+
     def is_silent_for(self, seconds):
         self.speaks.clear()
         time.sleep(seconds)
         self.speaks.set()
+
+    def is_heard_and_takes_nothing(self, meanwhile):
+        """Its lines wait in the pipe, and so do the answers."""
+        with self.alone:
+            fcntl.fcntl(self.process.stdout, fcntl.F_SETPIPE_SZ, 4096)
+            lines = 100
+            for _ in range(lines):   # of lines there is room for two hundred
+                self._say()
+            meanwhile()
+            for _ in range(lines):
+                self.process.stdout.readline()
+
+    def says_nothing_but_bytes(self, meanwhile):
+        with self.alone:
+            ends = threading.Event()
+
+            def flood():
+                while not ends.is_set():
+                    self.process.stdin.write(b'x' * 4096)
+                self.process.stdin.write(b'\n')
+                self.process.stdin.flush()
+            thread = threading.Thread(target=flood)
+            thread.start()
+            meanwhile()
+            ends.set()
+            thread.join()
+            self.process.stdout.readline()
 
     def leave(self):
         """As a robot that is switched off: nothing more is said. Returns the exit code."""
@@ -236,6 +275,42 @@ def takes_orders(master):
     master.wait('state', lambda message: message['orderId'] == 'long', 'one of three megabytes as well, which is less than the factsheet allows', mark)
 
 
+def is_told_of_what_was_dropped(master, robot):
+    def complains(words):
+        return lambda message: any(words in error['errorDescription'] for error in message['errors'])
+    mark = master.now()
+    master.client.publish(f'{VEHICLE}/order', b' ' * (MOST_BYTES + 100))
+    master.wait('state', complains('is longer than'), 'of a message that is too long the master is told', mark)
+    mark = master.now()
+    robot.process.send_signal(signal.SIGSTOP)   # so that all come at once
+    for _ in range(5 * MOST_WAITING):
+        master.client.publish(f'{VEHICLE}/order', b'{}')
+    time.sleep(0.5)
+    robot.process.send_signal(signal.SIGCONT)
+    master.wait('state', complains('dropped'), 'and of messages that were too many', mark)
+
+
+def asks(master, name, what):
+    mark = master.now()
+    master.act(name, 'stateRequest')
+    master.wait('state', lambda message: any(action['actionId'] == name for action in message['actionStates']), what, mark)
+
+
+def is_silent(message):
+    return any(error['errorType'] == 'robotSilent' for error in message['errors'])
+
+
+def answers_while_its_robot_is_stuck(master, robot):
+    robot.is_heard_and_takes_nothing(lambda: (
+        master.wait('state', is_silent, 'of a robot that takes no answers its master is told', master.now()),
+        asks(master, 'stuck-1', 'and is answered')))
+    master.wait('state', lambda message: not is_silent(message), 'until it takes them', master.now())
+    robot.says_nothing_but_bytes(lambda: (
+        master.wait('state', is_silent, 'of a robot that sends bytes without end, and no line, its master is told', master.now()),
+        asks(master, 'stuck-2', 'and is answered')))
+    master.wait('state', lambda message: not is_silent(message), 'until it sends a line', master.now())
+
+
 def hears_what_the_base_says(master, robot):
     mark = master.now()
     robot.said['vehicle'] = {'battery': 12.5, 'charging': True, 'e_stop': 'MANUAL', 'mode': 'MANUAL'}
@@ -260,7 +335,22 @@ def is_written_down(master, robot, written):
     expect(len(times) > 4 and times == sorted(times), 'what passed is a script: its time does not fall')
 
 
+def names_who_takes_its_connection(robot, folder):
+    said = pathlib.Path(folder) / 'said'
+    with said.open('wb') as file:
+        two = [robot(stderr=file), robot()]
+        until = time.monotonic() + LONGEST
+        while b'another program has the name of this vehicle' not in said.read_bytes():
+            if time.monotonic() > until:
+                raise SystemExit(f'FAIL: a vehicle whose name is taken says so: {said.read_bytes()}')
+            time.sleep(0.1)
+    print('ok: a vehicle whose name is taken says so', flush=True)
+    for one in two:
+        one.leave()
+
+
 def outlives_its_broker(master, broker, robot):
+    last = [heard[1] for heard in master.heard if heard[0] == 'state'][-1]
     broker.stop()
     answered = robot.answers
     time.sleep(1.0)
@@ -269,8 +359,10 @@ def outlives_its_broker(master, broker, robot):
     mark = master.now()
     broker.start()
     master.wait_until_connected()
-    master.wait_connection('ONLINE', 'it comes back by itself', mark)
-    master.wait('state', lambda message: True, 'and tells its state', mark)
+    online = master.wait_connection('ONLINE', 'it comes back by itself', mark)
+    expect(is_of_now(online[1]) and online[1]['headerId'] > 0, 'with the time of now, and a number of its own')
+    state = master.wait('state', lambda message: True, 'and tells its state', mark)
+    expect(is_of_now(state[1]) and state[1]['headerId'] > last['headerId'], 'as it is now')
     master.wait('factsheet', lambda message: True, 'and its factsheet, which the broker has forgotten', mark)
     mark = master.now()
     master.act('ask-3', 'stateRequest')
@@ -281,8 +373,8 @@ def run(command, folder):
     broker = Broker(folder)
     robots = []
 
-    def robot(*more):
-        robots.append(Robot([*command, *more], broker))
+    def robot(*more, stderr=None):
+        robots.append(Robot([*command, *more], broker, stderr))
         return robots[-1]
     try:
         master = Master(broker)
@@ -293,10 +385,14 @@ def run(command, folder):
         answers_questions(master)
         takes_orders(master)
         hears_what_the_base_says(master, first)
+        is_told_of_what_was_dropped(master, first)
+        answers_while_its_robot_is_stuck(master, first)
         outlives_its_broker(master, broker, first)
         mark = master.now()
         first.end(signal.SIGKILL)
-        master.wait_connection('CONNECTIONBROKEN', 'of a vehicle that is killed the broker says so', mark)
+        broken = master.wait_connection('CONNECTIONBROKEN', 'of a vehicle that is killed the broker says so', mark)
+        online = [heard[1] for heard in master.heard if heard[0] == 'connection' and heard[1]['connectionState'] == 'ONLINE'][-1]
+        expect(broken[1]['headerId'] == online['headerId'] + 1 and is_of_now(broken[1]), 'in a message that follows the one before')
         expect(retained_connection(broker)[1]['connectionState'] == 'CONNECTIONBROKEN', 'and says it to whoever comes later')
         for how in ('is switched off', 'is interrupted'):
             mark = master.now()
@@ -314,6 +410,7 @@ def run(command, folder):
         another = robot('--messages', str(written))
         master.wait_connection('ONLINE', 'it comes again', mark)
         is_written_down(master, another, written)
+        names_who_takes_its_connection(robot, folder)
         master.close()
     finally:
         for one in robots:

@@ -47,7 +47,7 @@ class Conversation {
   int run() {
     using Came = wire::LineChannel::Came;
     for (std::string line;;) {
-      const Came came = channel_.read(line, orders_ != nullptr && orders_->live() ? kListens_ms : wire::LineChannel::kForEver);
+      const Came came = channel_.read(line, waits_ms());
       silent_us_ = came == Came::kLate ? silent_us_ + kListens_ms * 1000 : 0;
       if (came == Came::kLate) {
         orders_->wait(silent_us_);
@@ -63,7 +63,7 @@ class Conversation {
           if (*said) tell(**said, line);
         }
       }
-      const Came went = channel_.write(answer, wire::LineChannel::kForEver);
+      const Came went = give(answer);
       if (went == Came::kStopped) return interrupted();
       if (went == Came::kFailed) session_.report(Kind::kCannotWrite, {"standard output", source::reason(channel_.error())});
       if (went != Came::kLine) return session_.exit_code();
@@ -75,6 +75,16 @@ class Conversation {
  private:
   static constexpr int kListens_ms = 100;   // how long it waits for the master's messages while the robot sends nothing
 
+  /// How long it waits for the robot before it looks after the master.
+  [[nodiscard]] int waits_ms() const { return orders_ != nullptr && orders_->live() ? kListens_ms : wire::LineChannel::kForEver; }
+  /// Gives the robot an answer, however long it takes none.
+  wire::LineChannel::Came give(const std::string& answer) {
+    using Came = wire::LineChannel::Came;
+    std::int64_t stuck_us = 0;
+    Came went = channel_.write(answer, waits_ms());
+    for (; went == Came::kLate; went = channel_.write_on(waits_ms())) orders_->wait(stuck_us += kListens_ms * 1000);
+    return went;
+  }
   std::string too_long(const std::string& line) {
     const wire::Mistake mistake{Kind::kWireLineLong, {fmt::format("{}", wire::kLongestLine), {}, {}}, {}, {source::FileId::kNone, 0, 1}};
     tell(mistake, line);
