@@ -268,6 +268,15 @@ TEST_F(Orders, NodesLieWhereTheOrderSays) {
   EXPECT_EQ(state["orderId"], "A");
 }
 
+TEST_F(Orders, AMessageThatTheLinkDroppedIsComplainedOf) {
+  hear("order", kDropped);
+  EXPECT_EQ(errors(), "validationError");
+  EXPECT_EQ(reference("topic"), "order");
+  EXPECT_NE(last_error().find("dropped"), std::string::npos);
+  hear("instantActions", kDropped);
+  EXPECT_EQ(reference("topic"), "instantActions");
+}
+
 TEST_F(Yard, AnOrderThatBeginsElsewhereThanTheFirstSignSaysIsGivenUp) {
   look();
   say("order", order("A", 0, {"n1", "n2", "n3"}));

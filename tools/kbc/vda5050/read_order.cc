@@ -60,6 +60,7 @@ class Reader {
   explicit Reader(std::string topic) : topic_(std::move(topic)) {}
 
   [[nodiscard]] std::optional<Json> message(std::string_view payload, const Identity& identity) {
+    if (payload == kDropped) return refuse("more messages came at once than this vehicle takes, and at least this one was dropped");
     if (payload.size() > kMostBytes) return refuse(fmt::format("the message is longer than {} bytes", kMostBytes));
     json::Fault fault;
     std::optional<Json> root = json::parse(payload, source::FileId::kNone, fault);

@@ -56,12 +56,20 @@ bool Vehicle::obeys() const { return state_->obeys(); }
 std::vector<HostAction> Vehicle::host_actions() const { return state_->actions.host_actions(); }
 std::vector<Message> Vehicle::take_messages() { return std::exchange(state_->outbox, {}); }
 Message Vehicle::farewell(std::int64_t utc_us) { return connection_message(state_->identity, "OFFLINE", state_->connections++, utc_us); }
-Message Vehicle::will(std::int64_t utc_us) const { return connection_message(state_->identity, "CONNECTIONBROKEN", state_->connections, utc_us); }
+void Vehicle::tell_again(std::int64_t utc_us) { state_->tell_again(utc_us); }
+Message will_of(const Identity& identity, std::uint32_t header_id, std::int64_t utc_us) { return connection_message(identity, "CONNECTIONBROKEN", header_id, utc_us); }
 
 void Vehicle::State::greet(std::int64_t utc_us) {
   if (std::exchange(greeted, true)) return;
   now_us = utc_us;
   send(connection_message(identity, "ONLINE", connections++, utc_us));
+}
+
+void Vehicle::State::tell_again(std::int64_t utc_us) {
+  if (!greeted) return;
+  send(connection_message(identity, "ONLINE", connections++, utc_us));   // first, because the broker may have sent CONNECTIONBROKEN in between
+  if (factsheets > 0) send_factsheet(utc_us);
+  changed = true;
 }
 
 void Vehicle::State::complain(Complaint complaint) {

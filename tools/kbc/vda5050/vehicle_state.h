@@ -37,6 +37,7 @@ struct Vehicle::State {
 
   // vehicle.cc
   void greet(std::int64_t utc_us);
+  void tell_again(std::int64_t utc_us);
   void take_order(const std::string& payload);
   void complain(Complaint complaint);
   [[nodiscard]] std::optional<Complaint> object_to(const Order& order, bool update) const;
