@@ -57,23 +57,21 @@ class Conversation {
       if (came == Came::kFailed) session_.report(Kind::kCannotRead, {"standard input", source::reason(channel_.error())});
       if (came == Came::kEnd || came == Came::kFailed) return session_.exit_code();
       ++number_;
-      const std::string answer = came == Came::kTooLong ? too_long(line) : exchange_.answer(line, number_);
-      if (came != Came::kTooLong) {
-        for (const auto* said : {&exchange_.mistake(), &exchange_.warning()}) {
-          if (*said) tell(**said, line);
-        }
+      const std::string answer = came == Came::kTooLong ? too_long() : exchange_.answer(line, number_);
+      for (const auto* said : {&exchange_.mistake(), &exchange_.warning()}) {
+        if (*said) tell(**said, line);
       }
       const Came went = give(answer);
       if (went == Came::kStopped) return interrupted();
       if (went == Came::kFailed) session_.report(Kind::kCannotWrite, {"standard output", source::reason(channel_.error())});
       if (went != Came::kLine) return session_.exit_code();
       if (orders_ != nullptr) orders_->step();
-      log_.heard(line, answer, came == Came::kLine && !exchange_.mistake());
+      log_.heard(line, answer, !exchange_.mistake());
     }
   }
 
  private:
-  static constexpr int kListens_ms = 100;   // how long it waits for the master's messages while the robot sends nothing
+  static constexpr int kListens_ms = 100;   // how long it waits for the master's messages while the robot sends or takes nothing
 
   /// How long it waits for the robot before it looks after the master.
   [[nodiscard]] int waits_ms() const { return orders_ != nullptr && orders_->live() ? kListens_ms : wire::LineChannel::kForEver; }
@@ -85,10 +83,9 @@ class Conversation {
     for (; went == Came::kLate; went = channel_.write_on(waits_ms())) orders_->wait(stuck_us += kListens_ms * 1000);
     return went;
   }
-  std::string too_long(const std::string& line) {
+  std::string too_long() {
     const wire::Mistake mistake{Kind::kWireLineLong, {fmt::format("{}", wire::kLongestLine), {}, {}}, {}, {source::FileId::kNone, 0, 1}};
-    tell(mistake, line);
-    return wire::print_answer(mistake, number_);
+    return exchange_.refuse(mistake, number_);
   }
   void tell(const wire::Mistake& mistake, const std::string& line) {
     if (messages_.errors() + messages_.warnings() > diagnostics::Diagnostics::kMaxErrors) return;   // there are messages enough, and each costs memory

@@ -47,7 +47,14 @@ std::string Exchange::answer(std::string_view text, std::uint64_t number) {
   line_.reset();
   warning_.reset();
   mistake_ = take(text, answer);
-  return mistake_ ? print_answer(*mistake_, number) : print_answer(answer);
+  return mistake_ ? print_answer(*mistake_, number, actions_) : print_answer(answer);
+}
+
+std::string Exchange::refuse(const Mistake& mistake, std::uint64_t number) {
+  line_.reset();
+  warning_.reset();
+  mistake_ = mistake;
+  return print_answer(mistake, number, actions_);
 }
 
 std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
