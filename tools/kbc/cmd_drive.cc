@@ -146,6 +146,7 @@ int run(const DriveCommand& options, Session& session) {
   wire::ExchangeOptions how;
   how.dt_us = ground->dt_us;
   how.pause_us = *trace::parse_duration(options.pause);
+  how.has_master = missions.has_value();
   if (!options.describe) return drive(options, missions ? &*missions : nullptr, *ground, *scene, std::move(how), session);
   session.print(wire::describe(*ground->knowledge, *scene->labyrinth, scene->scenario, how));
   return session.exit_code();
