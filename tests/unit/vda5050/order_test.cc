@@ -268,6 +268,22 @@ TEST_F(Orders, NodesLieWhereTheOrderSays) {
   EXPECT_EQ(state["orderId"], "A");
 }
 
+TEST_F(Orders, AKeyIsThereOnce) {
+  const auto twice = [](std::string text, const std::string& key) {
+    const std::size_t at = text.find("\"" + key + "\":");
+    return text.insert(at, "\"" + key + "\":null,");
+  };
+  const std::string good = order("A", 0, {"n1", "n2"}).dump();
+  for (const char* key : {"orderId", "nodeId", "endNodeId"}) {
+    hear("order", twice(good, key));
+    EXPECT_EQ(state["errors"].back()["errorType"], "validationError");
+    EXPECT_EQ(last_error(), fmt::format("`{}` is there twice in one object", key));
+  }
+  refuses(order(std::string("A\0", 2), 0, {"n1", "n2"}), "validationError", "orderId has a NUL");
+  hear("order", good);
+  EXPECT_EQ(state["orderId"], "A");
+}
+
 TEST_F(Orders, AMessageThatTheLinkDroppedIsComplainedOf) {
   hear("order", kDropped);
   EXPECT_EQ(errors(), "validationError");

@@ -41,6 +41,18 @@ void print(const Json& json, std::string& out) {
   out += object ? '}' : ']';
 }
 
+/// A key that an object has more than once, however deep it lies; null if there is none.
+const std::string* key_twice(const Json& json) {
+  std::set<std::string_view> keys;
+  for (const std::string& key : json.keys) {
+    if (!keys.insert(key).second) return &key;
+  }
+  for (const Json& part : json.parts) {   // no deeper than the JSON that the reader accepts
+    if (const std::string* twice = key_twice(part)) return twice;
+  }
+  return nullptr;
+}
+
 /// Whether it is 2.N or 2.N.N: a later 2.N only adds to what this reads.
 bool is_second_version(std::string_view version) {
   std::size_t numbers = 0;
@@ -66,6 +78,7 @@ class Reader {
     std::optional<Json> root = json::parse(payload, source::FileId::kNone, fault);
     if (!root) return refuse(fmt::format("this is no JSON: {}, at byte {}", fault.what, fault.span.begin + 1));
     if (root->kind != Json::Kind::kObject) return refuse("the message is no object");
+    if (const std::string* twice = key_twice(*root)) return refuse(fmt::format("`{}` is there twice in one object", clipped(*twice)));
     for (const char* key : {"headerId", "orderId", "orderUpdateId"}) {
       const Json* value = root->find(key);
       if (value != nullptr && (value->kind == Json::Kind::kNumber || value->kind == Json::Kind::kString)) references_.emplace_back(key, clipped(value->text));
@@ -86,6 +99,7 @@ class Reader {
   [[nodiscard]] std::string name(const Json& object, const char* key, std::string_view where) {
     std::string value = text(object, key, where);
     if (!failed() && value.empty()) wrong(fmt::format("{}{} is empty", where, key));
+    if (!failed() && value.find('\0') != std::string::npos) wrong(fmt::format("{}{} has a NUL", where, key));
     if (!failed() && value.size() > kLongestId) wrong(fmt::format("{}{} is longer than {} bytes", where, key, kLongestId));
     return failed() ? "" : value;
   }
