@@ -45,7 +45,7 @@ void Perception::forget_place() {
   reckoning_.start(senses_, reckoning_.at);
   last_heading_rad_ = reckoning_.at.heading_rad;
   road_.forget();
-  rounding_ = guided_ = out_awaited_ = false;
+  rounding_ = guided_ = out_awaited_ = crosses_ = met_line_ = begins_on_road_ = false;
   disagree_s_ = 0.0f;
 }
 
@@ -62,9 +62,16 @@ void Perception::put(std::shared_ptr<const Memory> memory, std::uint32_t exit, d
 // Between two missions somebody may carry the robot to where the next one is to begin, and its wheels do not notice. So after two seconds
 // of rest it knows only what it senses, as after start-up: the sign that it reads now, but no road. A vehicle that takes orders is not
 // carried unless its host says so (mode MANUAL): it keeps its place on its road, or in its crossing, until the next order.
+
+// note [an order begins at the line]
+// A robot that brakes at a stop line comes to rest with the line just behind its sensors. If its order ends there, the next one begins
+// there, and the mind, which remembers nothing of the order before, must be told of the line: else it would drive across as on a road. And
+// if an order ends just out of a crossing, the line out may lie under its sensors: that is no line to stop at.
 void Perception::rest(bool rests, float dt_s) {
   rest_s_ = rests ? rest_s_ + dt_s : 0.0f;
-  if (rest_s_ < kRests || (keeps_place_ && (in_crossing() || on_road()))) return;
+  waits_at_line_ = keeps_place_ && met_line_ && (rests || waits_at_line_);
+  begins_on_road_ = keeps_place_ && (rests || begins_on_road_);
+  if (rest_s_ < kRests || (keeps_place_ && (in_crossing() || on_road() || met_line_))) return;
   forget_place();
   pushed_ = strayed_ = set_down_ = anew_ = false;
   beside_m_ = without_line_m_ = carried_s_ = held_s_ = 0.0f;

@@ -85,8 +85,10 @@ bool Perception::passes_line_out() const {
   return rounding_ ? along_m > kPassedRound : along_m > kPassed || line_.now() || line_seen_;
 }
 
+/// Whether a line below the sensors is that behind which the robot's road began: also of a mission that began on that road, see note
+/// [an order begins at the line].
 bool Perception::near_line_behind() const {
-  const bool goes_round = rounding_ || beside_m_ > 0.0f;
+  const bool goes_round = rounding_ || beside_m_ > 0.0f || begins_on_road_;
   return goes_round && out_told_ && phase_ != Phase::kInside && road_.known() && !road_.turned_back() && road_.progress(reckoning_.at).along_m < kLineBehind;
 }
 
@@ -97,9 +99,10 @@ bool Perception::back_on_road() const {
   return !out_awaited_ || (now.aside_m < kAside && now.turned_rad < kAlongRoad);
 }
 
-/// Whether a stop line lies below the sensors and is the one that the robot had to come to.
+/// Whether a stop line lies below the sensors, or just behind them (see note [an order begins at the line]), and is the one that the robot had to come to.
 bool Perception::line_counts() const {
   if (out_awaited_) return passes_line_out();
+  if (waits_at_line_) return true;
   return (line_.now() || line_seen_) && !before_middle() && !near_line_behind();
 }
 

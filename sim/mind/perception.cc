@@ -98,6 +98,7 @@ void Perception::hear_tag(const TagHeard& tag, float dt_s) {
   }
   const bool passed = (phase_ == Phase::kLeaving && unread_s_ > kReadingLasts && since_m_ > 0.05f) ||
                       (phase_ == Phase::kApproach && since_m_ > kApproachLasts) || (phase_ == Phase::kInside && since_m_ > kCrossingLasts);
+  if (passed && phase_ == Phase::kInside) crosses_ = false;
   if (passed) phase_ = Phase::kOnRoad;
 }
 
@@ -118,6 +119,8 @@ bool Perception::rounds_to_end() const {
 void Perception::hear_line(float dt_s) {
   line_.hear(senses_, dt_s, rounds_to_end());
   line_seen_ = line_seen_ || line_.now();
+  met_line_ = phase_ == Phase::kApproach && (met_line_ || line_.now());
+  waits_at_line_ = waits_at_line_ && met_line_;
 }
 
 bool Perception::in_hall() const {
@@ -153,6 +156,8 @@ void Perception::enter(const Strategy& strategy, bool resumes) {
   if (phase_ == Phase::kInside || at_exit || (resumes && out_awaited_)) return;   // still in the same manoeuvre, after an obstacle
   road_.enter_crossing();
   set_down_ = out_awaited_ = out_told_ = false;
+  crosses_ = true;
+  begins_on_road_ = false;
   if (strategy.signless) memory_ = nullptr;
   exit_ = exit_for(strategy);
   phase_ = Phase::kInside;
@@ -162,6 +167,7 @@ void Perception::enter(const Strategy& strategy, bool resumes) {
 
 /// A `Move` begins, and with it a new road unless the robot is still on the one before. Out of a crossing the road begins at the stop line.
 void Perception::set_out() {
+  crosses_ = false;
   const bool known = memory_ != nullptr && (phase_ == Phase::kLeaving || (phase_ == Phase::kInside && exit_ != kNoExit));
   if (phase_ != Phase::kInside && (phase_ != Phase::kLeaving || road_.turned_back())) return;   // on the same road as before
   const bool went_round = rounding_ || beside_m_ > 0.0f;
@@ -204,6 +210,7 @@ void Perception::begin(const Strategy* strategy, bool resumes) {
   if (strategy->drives()) rounding_ = false;
   if (strategy->doing == Doing::kRound) {
     round_rad_ = 0.0f;
+    met_line_ = waits_at_line_ = false;
     road_.turn_back();
   }
 }

@@ -63,10 +63,10 @@ class Perception {
   [[nodiscard]] bool rests() const { return rest_s_ > 0.0f; }
   /// The road that it is on, by the memory of the road's first landmark; null if unknown.
   [[nodiscard]] const Memory::Exit* road() const { return road_.exit(); }
-  /// Whether it is past the stop line of a crossing and not out of it yet.
-  [[nodiscard]] bool in_crossing() const { return phase_ == Phase::kInside; }
-  /// Where it is on that road; nothing in a crossing, or if the road is unknown.
-  [[nodiscard]] std::optional<MapPlace> on_road() const { return in_crossing() ? std::nullopt : road_.where(reckoning_.at); }
+  /// Whether it is past the stop line of a crossing and not out of it yet: the sign of its exit may have been read already, but not its line.
+  [[nodiscard]] bool in_crossing() const { return phase_ == Phase::kInside || crosses_; }
+  /// Where it is on that road; nothing in a crossing, or if the road is unknown. On the way round an obstacle at the way out, the road of the exit.
+  [[nodiscard]] std::optional<MapPlace> on_road() const { return in_crossing() && !out_awaited_ ? std::nullopt : road_.where(reckoning_.at); }
   /// The end by which it entered the road that it is on; in a crossing, that of the road by which it came, until it is out. Nothing if unknown.
   [[nodiscard]] std::optional<RoadEnd> came_by() const;
   /// How fast it may drive where it is, m/s: see note [where a limit holds]. Infinity if there is no limit.
@@ -145,6 +145,8 @@ class Perception {
   float sign_s_ = 0.0f;                      // since the first one, of the same landmark
   float to_line_out_m_ = 0.0f;               // how far it has yet to drive in the crossing
   bool out_told_ = true;                     // the line out of the crossing that it entered last has been seen
+  bool crosses_ = false;                     // it has entered a crossing, and has not set out from it yet
+  bool met_line_ = false, waits_at_line_ = false, begins_on_road_ = false;   // see note [an order begins at the line]
 
   RoadAhead road_;                           // as the memory described it when it was entered
   bool guided_ = false;                      // it said nothing, and line or walls were followed: see note [no compass on an untold road]

@@ -35,6 +35,7 @@ class Row final : public Plant {
     return way;
   }
   std::optional<Pose> pose(const Whereabouts& where) const override { return Pose{static_cast<double>(where.road.landmark[0]), where.along_m, 0.0}; }
+  std::optional<Pose> place_of(std::string_view node) const override { return pose({{std::string(node)}}); }
   std::optional<Standing> standing_at(const Pose& pose) const override {
     return pose.x_m < 0.0 ? std::nullopt : std::optional(Standing{{{"b", "E"}, pose.x_m}, "c"});
   }

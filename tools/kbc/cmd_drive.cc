@@ -47,7 +47,7 @@ class Conversation {
   int run() {
     using Came = wire::LineChannel::Came;
     for (std::string line;;) {
-      const Came came = channel_.read(line, orders_ != nullptr && orders_->live() ? kListens_ms : wire::LineChannel::kForEver);
+      const Came came = channel_.read(line, waits_ms());
       silent_us_ = came == Came::kLate ? silent_us_ + kListens_ms * 1000 : 0;
       if (came == Came::kLate) {
         orders_->wait(silent_us_);
@@ -57,28 +57,35 @@ class Conversation {
       if (came == Came::kFailed) session_.report(Kind::kCannotRead, {"standard input", source::reason(channel_.error())});
       if (came == Came::kEnd || came == Came::kFailed) return session_.exit_code();
       ++number_;
-      const std::string answer = came == Came::kTooLong ? too_long(line) : exchange_.answer(line, number_);
-      if (came != Came::kTooLong) {
-        for (const auto* said : {&exchange_.mistake(), &exchange_.warning()}) {
-          if (*said) tell(**said, line);
-        }
+      const std::string answer = came == Came::kTooLong ? too_long() : exchange_.answer(line, number_);
+      for (const auto* said : {&exchange_.mistake(), &exchange_.warning()}) {
+        if (*said) tell(**said, line);
       }
-      const Came went = channel_.write(answer, wire::LineChannel::kForEver);
+      const Came went = give(answer);
       if (went == Came::kStopped) return interrupted();
       if (went == Came::kFailed) session_.report(Kind::kCannotWrite, {"standard output", source::reason(channel_.error())});
       if (went != Came::kLine) return session_.exit_code();
       if (orders_ != nullptr) orders_->step();
-      log_.heard(line, answer, came == Came::kLine && !exchange_.mistake());
+      log_.heard(line, answer, !exchange_.mistake());
     }
   }
 
  private:
-  static constexpr int kListens_ms = 100;   // how long it waits for the master's messages while the robot sends nothing
+  static constexpr int kListens_ms = 100;   // how long it waits for the master's messages while the robot sends or takes nothing
 
-  std::string too_long(const std::string& line) {
+  /// How long it waits for the robot before it looks after the master.
+  [[nodiscard]] int waits_ms() const { return orders_ != nullptr && orders_->live() ? kListens_ms : wire::LineChannel::kForEver; }
+  /// Gives the robot an answer, however long it takes none.
+  wire::LineChannel::Came give(const std::string& answer) {
+    using Came = wire::LineChannel::Came;
+    std::int64_t stuck_us = 0;
+    Came went = channel_.write(answer, waits_ms());
+    for (; went == Came::kLate; went = channel_.write_on(waits_ms())) orders_->wait(stuck_us += kListens_ms * 1000);
+    return went;
+  }
+  std::string too_long() {
     const wire::Mistake mistake{Kind::kWireLineLong, {fmt::format("{}", wire::kLongestLine), {}, {}}, {}, {source::FileId::kNone, 0, 1}};
-    tell(mistake, line);
-    return wire::print_answer(mistake, number_);
+    return exchange_.refuse(mistake, number_);
   }
   void tell(const wire::Mistake& mistake, const std::string& line) {
     if (messages_.errors() + messages_.warnings() > diagnostics::Diagnostics::kMaxErrors) return;   // there are messages enough, and each costs memory
@@ -139,6 +146,7 @@ int run(const DriveCommand& options, Session& session) {
   wire::ExchangeOptions how;
   how.dt_us = ground->dt_us;
   how.pause_us = *trace::parse_duration(options.pause);
+  how.has_master = missions.has_value();
   if (!options.describe) return drive(options, missions ? &*missions : nullptr, *ground, *scene, std::move(how), session);
   session.print(wire::describe(*ground->knowledge, *scene->labyrinth, scene->scenario, how));
   return session.exit_code();

@@ -89,6 +89,12 @@ std::unique_ptr<wire::RemoteHelm> start_driver(const SimOptions& options, const 
   return std::make_unique<wire::RemoteHelm>(std::move(process), *ground.knowledge, std::move(how));
 }
 
+/// A drive of a minute takes the simulator an instant, in which no master can send an order.
+void hint_at_clock(const SimOptions& options, const sim::Summary& summary, Session& session) {
+  if (options.speed || !options.driver || summary.outcome != sim::Summary::Outcome::kNeverStarted || options.driver->find("mqtt") == std::string::npos) return;
+  session.remark("the driver seems to take orders from a broker, and they come by the clock; with `--speed 1` the drive keeps to it");
+}
+
 int drive(const SimOptions& options, const DriveGround& ground, const Scene& scene, Session& session, diagnostics::Diagnostics& messages) {
   const sim::Labyrinth& labyrinth = *scene.labyrinth;
   const Interrupts interrupts;   // before the trace is opened, so that an interrupt leaves no half of it behind
@@ -133,6 +139,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   }
   if (!write_reports(options, recording, drive.summary(), labyrinth.scale, session)) return kErrors;
   if (!options.to_stdout()) session.print(print_summary(drive.summary(), labyrinth.scale, scene.scenario.limit_s));
+  hint_at_clock(options, drive.summary(), session);
   if (options.expect) compare(drive.summary(), {*options.expect, options.allow}, messages);
   return session.exit_code();
 }

@@ -145,7 +145,7 @@ std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMis
   auto messages = session.diagnostics(ground.compiled->sources);
   vda5050::LinkOptions how = options.link;
   vda5050::take_credentials(how);
-  how.will = orders->vehicle_->will(0);
+  how.will = [who = how.identity](std::uint32_t header_id, std::int64_t utc_us) { return vda5050::will_of(who, header_id, utc_us); };
   orders->link_ = vda5050::make_link(how, session.files(), ground.compiled->sources, messages);
   if (orders->link_ == nullptr) return nullptr;
   if (!options.messages.empty()) {

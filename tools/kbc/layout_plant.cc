@@ -48,6 +48,13 @@ std::optional<std::string> LayoutPlant::node_at(std::string_view landmark) const
   return place == places_.end() ? roads_.node_at(landmark) : std::optional(map_.layout.places[place->second].id);
 }
 
+std::optional<vda5050::Pose> LayoutPlant::place_of(std::string_view node) const {
+  const auto place = edges_.place(node);
+  if (!place) return roads_.place_of(node);
+  const layout::Point at = map_.layout.places[*place].at;
+  return vda5050::Pose{at.x_m, at.y_m, 0.0};
+}
+
 std::optional<std::vector<vda5050::Visit>> LayoutPlant::way(std::string_view edge, std::string_view from, std::string_view to) const {
   const auto begin = edges_.place(from), end = edges_.place(to);
   if (!begin || !end) {

@@ -34,6 +34,7 @@ class LayoutPlant final : public vda5050::Plant {
 
   [[nodiscard]] std::optional<std::string> landmark_of(std::string_view node) const override;
   [[nodiscard]] std::optional<std::string> node_at(std::string_view landmark) const override;
+  [[nodiscard]] std::optional<vda5050::Pose> place_of(std::string_view node) const override;
   /// Of two edges of one id between the same places, the first is taken. A loop back to its own place is no way: no road was made from it.
   [[nodiscard]] std::optional<std::vector<vda5050::Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const override;
   [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::Whereabouts& where) const override { return roads_.pose(where); }

@@ -110,6 +110,7 @@ vda5050::Progress OrderDesk::progress() const {
 void OrderDesk::deal(std::int64_t t_us) {
   t_us = dealt_us_ = std::max(dealt_us_, t_us);
   const std::int64_t utc_us = link_.utc_us(t_us);
+  if (link_.connected_anew()) vehicle_.tell_again(utc_us);
   vehicle_.observe(progress(), condition_, action_states_, utc_us);
   action_states_.clear();
   while (const auto message = link_.next(t_us)) vehicle_.hear(*message, utc_us);

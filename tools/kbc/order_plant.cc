@@ -34,6 +34,12 @@ std::optional<std::string> RoadPlant::node_at(std::string_view landmark) const {
   return labyrinth_.crossing(landmark) != sim::CrossingId::kNone ? std::optional<std::string>(landmark) : std::nullopt;
 }
 
+std::optional<vda5050::Pose> RoadPlant::place_of(std::string_view node) const {
+  const sim::CrossingId crossing = crossing_of(node);
+  if (crossing == sim::CrossingId::kNone) return std::nullopt;
+  return vda5050::Pose{labyrinth_[crossing].at.x_m / labyrinth_.scale, labyrinth_[crossing].at.y_m / labyrinth_.scale, 0.0};
+}
+
 std::vector<const sim::Arm*> RoadPlant::arms_to(sim::CrossingId from, sim::CrossingId to) const {
   std::vector<const sim::Arm*> arms;
   for (const sim::Arm& arm : labyrinth_[from].arms) {

@@ -24,6 +24,7 @@ class RoadPlant final : public vda5050::Plant {
 
   [[nodiscard]] std::optional<std::string> landmark_of(std::string_view node) const override;
   [[nodiscard]] std::optional<std::string> node_at(std::string_view landmark) const override;
+  [[nodiscard]] std::optional<vda5050::Pose> place_of(std::string_view node) const override;
   [[nodiscard]] std::optional<std::vector<vda5050::Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const override;
   [[nodiscard]] std::optional<vda5050::Pose> pose(const vda5050::Whereabouts& where) const override;
   [[nodiscard]] std::optional<vda5050::Standing> standing_at(const vda5050::Pose& pose) const override;

@@ -131,6 +131,11 @@ TEST(LayoutPlant, PositionsAreThoseOfTheLayout) {
   ASSERT_TRUE(at);
   EXPECT_NEAR(at->x_m, 4.0, 1e-9);
   EXPECT_NEAR(at->y_m, -4.0, 1e-9);
+  const auto place = hall.plant->place_of("7");
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->x_m, 4.0);
+  EXPECT_EQ(place->y_m, 0.0) << "not that of the landmark `LM7`";
+  EXPECT_FALSE(hall.plant->place_of("8"));
   EXPECT_EQ(hall.plant->map_id(), "hall-1");
 }
 

@@ -247,6 +247,86 @@ TEST_F(Orders, ActionsOfTheHorizonWaitAndGoWithIt) {
   refuses(json, "validationError", "actionId `p` already");
 }
 
+TEST_F(Orders, NodesLieWhereTheOrderSays) {
+  Json json = order("A", 0, {"n1", "n2"});
+  const auto lies = [&json](double x_m, double y_m, const std::string& map) -> Json& {
+    return json["nodes"][1]["nodePosition"] = {{"x", x_m}, {"y", y_m}, {"mapId", map}};
+  };
+  lies(6, 0, "cellar");
+  refuses(json, "noRouteError", "node `n2` is on map `cellar`; the positions of this vehicle are on map `yard`");
+  lies(6, 0.6, "yard");
+  refuses(json, "noRouteError", "node `n2` lies at (6.00, 0.00), 0.60 m from where the order says");
+  json["nodes"][1]["nodePosition"]["allowedDeviationXY"] = "wide";
+  refuses(json, "validationError", "nodes[1].nodePosition.allowedDeviationXY is a string, not a number");
+  json["nodes"][1]["nodePosition"].erase("x");
+  refuses(json, "validationError", "nodes[1].nodePosition.x is missing");
+  json["nodes"][1]["nodePosition"] = Json::array();
+  refuses(json, "validationError", "nodes[1].nodePosition is a list, not an object");
+  lies(6, 0.6, "yard")["allowedDeviationXY"] = 1;
+  say("order", json);
+  EXPECT_EQ(errors(), "");
+  EXPECT_EQ(state["orderId"], "A");
+}
+
+TEST_F(Orders, AKeyIsThereOnce) {
+  const auto twice = [](std::string text, const std::string& key) {
+    const std::size_t at = text.find("\"" + key + "\":");
+    return text.insert(at, "\"" + key + "\":null,");
+  };
+  const std::string good = order("A", 0, {"n1", "n2"}).dump();
+  for (const char* key : {"orderId", "nodeId", "endNodeId"}) {
+    hear("order", twice(good, key));
+    EXPECT_EQ(state["errors"].back()["errorType"], "validationError");
+    EXPECT_EQ(last_error(), fmt::format("`{}` is there twice in one object", key));
+  }
+  refuses(order(std::string("A\0", 2), 0, {"n1", "n2"}), "validationError", "orderId has a NUL");
+  hear("order", good);
+  EXPECT_EQ(state["orderId"], "A");
+}
+
+TEST_F(Orders, AMessageThatTheLinkDroppedIsComplainedOf) {
+  hear("order", kDropped);
+  EXPECT_EQ(errors(), "validationError");
+  EXPECT_EQ(reference("topic"), "order");
+  EXPECT_NE(last_error().find("dropped"), std::string::npos);
+  hear("instantActions", kDropped);
+  EXPECT_EQ(reference("topic"), "instantActions");
+}
+
+TEST_F(Yard, AnOrderThatBeginsElsewhereThanTheFirstSignSaysIsGivenUp) {
+  look();
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  progress.task = vehicle.task().number;
+  progress.on_mission = true;
+  progress.speed_m_s = 0.5;
+  look();
+  EXPECT_EQ(errors(), "");
+  progress.here = "L2";
+  look();
+  EXPECT_EQ(errors(), "orderError cannotGoOn");
+  EXPECT_EQ(state["errors"][0]["errorDescription"], "the order begins at node `n1`; the sign that the vehicle reads is that of `n2`");
+  EXPECT_EQ(way(), "") << "it is not driven any farther";
+  stop();
+  instruct("c", "cancelOrder");
+  EXPECT_EQ(status("c"), "FINISHED");
+  EXPECT_EQ(errors(), "orderError");
+  look();
+  EXPECT_EQ(state["lastNodeId"], "n2");
+  say("order", order("B", 0, {"n2", "n3"}));
+  EXPECT_EQ(errors(), "");
+  drive();
+  EXPECT_EQ(state["lastNodeId"], "n3");
+}
+
+TEST_F(Yard, AnOrderToStayThatTheFirstSignContradictsIsOver) {
+  look();
+  say("order", order("A", 0, {"n1"}));
+  progress.here = "L2";
+  look();
+  EXPECT_EQ(errors(), "orderError") << "there is nothing to cancel";
+  EXPECT_EQ(state["lastNodeId"], "n2");
+}
+
 TEST_F(Orders, MessagesForOthersAndOfOtherVersionsAreRefused) {
   Json json = order("A", 0, {"n1", "n2"});
   refuses(with_header(json, "8"), "validationError", "another vehicle");

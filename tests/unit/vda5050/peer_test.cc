@@ -30,6 +30,8 @@ TEST_F(Peer, SaysTheSameAsAnotherVehicle) {
       {'c', {{"errors", ""}, {"lastNodeId", "n4"}}},
   };
   std::ifstream file(KB_PROJECT_ROOT "/data/vda5050/peer_scenarios.jsonl");
+  row.map = "local";
+  row.knows_places = false;   // the other vehicle believes any
   progress.here = "L1";
   look();
   char scenario = '0';

@@ -22,10 +22,29 @@ TEST_F(Yard, TheFirstWordIsOnlineAndTheLastIsOffline) {
   EXPECT_EQ(sent[0].second["serialNumber"], "7");
   EXPECT_EQ(sent[1].first.topic, "state");
   EXPECT_FALSE(sent[1].first.retained);
-  const Message will = vehicle.will(us), farewell = vehicle.farewell(us);
+  const Message will = will_of({"Acme", "7"}, 1, us), farewell = vehicle.farewell(us);
   EXPECT_EQ(Json::parse(will.payload)["connectionState"], "CONNECTIONBROKEN");
+  EXPECT_EQ(Json::parse(will.payload)["timestamp"], sent[0].second["timestamp"]);
   EXPECT_EQ(Json::parse(farewell.payload)["connectionState"], "OFFLINE");
   EXPECT_EQ(Json::parse(farewell.payload)["headerId"], 1);
+}
+
+TEST_F(Yard, OverANewConnectionAllIsToldAgainWithHeadersOfNow) {
+  vehicle.tell_again(us);
+  EXPECT_TRUE(vehicle.take_messages().empty()) << "it has not told anything yet";
+  look();
+  instruct("f", "factsheetRequest");
+  sent.clear();
+  us += 60'000'000;
+  vehicle.tell_again(us);
+  look();
+  ASSERT_EQ(sent.size(), 3u);
+  EXPECT_EQ(sent[0].second["connectionState"], "ONLINE") << "the broker may have said that the vehicle is gone";
+  EXPECT_EQ(sent[0].second["headerId"], 1);
+  EXPECT_EQ(sent[0].second["timestamp"], "1970-01-01T00:01:00.100Z");
+  EXPECT_EQ(sent[1].first.topic, "factsheet");
+  EXPECT_EQ(sent[1].second["headerId"], 1);
+  EXPECT_EQ(sent[2].first.topic, "state");
 }
 
 TEST_F(Yard, AStateIsSentWhenSomethingChangesAndEveryThirtySeconds) {

@@ -45,7 +45,14 @@ class Row final : public Plant {
     return Standing{{{fmt::format("L{}", behind), "E"}, pose.x_m - 6.0 * (behind - 1)}, fmt::format("L{}", behind + 1)};
   }
   bool leads_back(const Visit& road) const override { return road.landmark != "L8"; }
-  std::string map_id() const override { return "yard"; }
+  std::optional<Pose> place_of(std::string_view node) const override {
+    const auto landmark = knows_places ? landmark_of(node) : std::nullopt;
+    return landmark ? pose({{*landmark}}) : std::nullopt;
+  }
+  std::string map_id() const override { return map; }
+
+  std::string map = "yard";
+  bool knows_places = true;
 };
 
 inline std::string edge_name(std::string_view from, std::string_view to) {

@@ -86,7 +86,7 @@ LinkOptions options_with(std::string orders, std::string manufacturer = "Acme", 
   LinkOptions options;
   options.orders = std::move(orders);
   options.identity = {std::move(manufacturer), std::move(serial)};
-  options.will = {"connection", "{}", true};
+  options.will = [](std::uint32_t, std::int64_t) { return Message{"connection", "{}", true}; };
   return options;
 }
 

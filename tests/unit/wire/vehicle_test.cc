@@ -88,6 +88,9 @@ TEST(Answer, TellsOfActionsOnlyWhereThereAreAny) {
   EXPECT_EQ(print_answer(answer).find("actions"), std::string::npos);
   answer.actions = {{"a\"1", "pick", R"({"height":1.2,"side":["left"]})"}, {"a2", "beep", ""}};
   answer.mind = R"({"tick":3})";
+  const Mistake mistake{diagnostics::Kind::kWireNotJson, {"it is empty", {}, {}}, {}, {}};
+  EXPECT_NE(print_answer(mistake, 1, answer.actions).find(R"(},"actions":[{"id":"a\"1",)"), std::string::npos) << "a mistake in a line ends no action";
+  EXPECT_EQ(print_answer(mistake, 1).find("actions"), std::string::npos);
   const std::string text = print_answer(answer);
   EXPECT_NE(text.find(R"(,"actions":[{"id":"a\"1","type":"pick","parameters":{"height":1.2,"side":["left"]}},{"id":"a2","type":"beep","parameters":{}}],"mind":)"), std::string::npos) << text;
   const auto back = read_answer(text);

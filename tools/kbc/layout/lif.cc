@@ -141,6 +141,7 @@ class LifReader {
   void read_node(const Json& node, Layout& layout) {
     const Json* id = Fields(node, "the node", diagnostics_).want("nodeId", Json::Kind::kString);
     if (id == nullptr) return;
+    if (id->text.empty()) diagnostics_.report(Kind::kLayoutMissing, id->span, {"the node", "nodeId"});
     if (!choice_.vehicle.empty() && properties(node, "the node", "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties") == nullptr) {
       barred_.insert(id->text);
       return;
@@ -181,6 +182,7 @@ class LifReader {
     if (barred_.contains(from->text) || barred_.contains(to->text)) {
       return adaptations_.note("edge to a node that is not for this type of vehicle: left out", id->span);
     }
+    if (!edges_.insert(id->text).second) adaptations_.note("edge with the `edgeId` of another one: an order that means it may be taken to mean that one", id->span);
     Way way{id->text, from->text, to->text, {}, false, from->span, to->span};
     if (of_vehicle != nullptr) {
       if (choice_.vehicle.empty()) note_other_trajectories(edge, *of_vehicle, id->span);
@@ -274,6 +276,7 @@ class LifReader {
 
   const Choice& choice_;
   std::set<std::string> types_, barred_;   // types of vehicles that occur; nodes where the type asked for may not go
+  std::set<std::string> edges_;            // the ids read
   Adaptations& adaptations_;
   diagnostics::Diagnostics& diagnostics_;
 };

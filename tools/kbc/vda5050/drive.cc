@@ -23,7 +23,8 @@ bool blocks(const Node& node) {
 
 }  // namespace
 
-void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
+/// Takes over what the robot is like now, whatever its task.
+void Vehicle::State::sense(const Progress& now, std::int64_t passed_us) {
   speed_m_s = number(now.speed_m_s);
   turn_rad_s = number(now.turn_rad_s);
   const auto faster = [this](double speed, double turn) { return std::abs(speed_m_s) > speed || std::abs(turn_rad_s) > turn; };
@@ -45,6 +46,25 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
   const bool comes_on = std::abs(speed_m_s) > kMoves_m_s;   // a robot that turns on the spot is looking for its way
   stood_us = comes_on || paused ? 0 : stood_us + passed_us;
   helpless_us = stood_us == 0 || reports.empty() ? 0 : helpless_us + passed_us;
+}
+
+/// An order that was believed begins elsewhere than where the robot is. Before a sign that it does not expect it would only look round, and its
+/// master would not learn why.
+void Vehicle::State::check_first_sign() {
+  if (!believed || here.empty()) return;
+  believed = false;
+  if (book.nodes().empty() || here == book.nodes().front().landmark) return;
+  const Node& first = book.nodes().front();
+  const std::string node = plant.node_at(here).value_or(here);
+  complain({"orderError", fmt::format("the order begins at node `{}`; the sign that the vehicle reads is that of `{}`", first.id, node), {{"orderId", book.id()}, {"orderUpdateId", std::to_string(book.update())}, {"nodeId", first.id}}});
+  gave_up = active();   // an order of one node is over already
+  stretch.close();
+  on_mission = was_on_mission = false;
+}
+
+void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
+  sense(now, passed_us);
+  check_first_sign();
   const double before_m = std::exchange(since_m, std::max(number(now.since_m), 0.0));
   if (now.task != stretch.task().number || !stretch.given()) {
     on_mission = false;

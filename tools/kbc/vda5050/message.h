@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -14,10 +15,16 @@ struct Message {
   bool retained = false;
 };
 
+/// The payload of a message that the link had to drop. It is no JSON, so no master sends it.
+inline constexpr const char* kDropped = "(dropped: too many messages waited)";
+
 /// The identity of a vehicle to its master.
 struct Identity {
   std::string manufacturer, serial;
 };
+
+/// Makes what a broker sends if the vehicle disappears without leaving: from the number and the time of the message.
+using Will = std::function<Message(std::uint32_t header_id, std::int64_t utc_us)>;
 
 /// A carrier of messages: MQTT, or a script file.
 class Link {
@@ -31,6 +38,8 @@ class Link {
   [[nodiscard]] virtual std::int64_t utc_us(std::int64_t t_us) = 0;
   /// Whether messages arrive while the robot is silent. Those of a file do not: they come by the robot's clock, which then stands still.
   [[nodiscard]] virtual bool live() const { return true; }
+  /// Whether a connection was made since the last call.
+  [[nodiscard]] virtual bool connected_anew() { return false; }
   /// News to report once: the broker cannot be reached, or is back. Empty: nothing new.
   [[nodiscard]] virtual std::string news() { return {}; }
 };

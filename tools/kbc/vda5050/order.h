@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@ inline constexpr std::size_t kMostNodes = 10'000;                 ///< of an ord
 inline constexpr std::size_t kMostActions = 10'000;               ///< of an order, and of all that are not over yet
 inline constexpr std::size_t kMostInstants = 100;                 ///< of a message, and of all that are not over yet
 inline constexpr std::size_t kLongestId = 256;                    ///< bytes of a name
+inline constexpr double kNodeWithin_m = 0.5;                      ///< so far from the position that an order gives it a node may lie, or as far as the order allows
 inline constexpr std::size_t kLongestParameters = std::size_t{64} << 10;   ///< bytes of an action's parameters, which a host gets in one line
 
 /// Whether an action allows driving and other actions beside it (6.12).
@@ -28,12 +30,21 @@ struct Action {
   friend bool operator==(const Action&, const Action&) = default;
 };
 
+/// Where a master thinks that a node lies.
+struct NodePosition {
+  double x_m = 0.0, y_m = 0.0;
+  std::string map;                 ///< empty: not said
+  double deviation_m = 0.0;        ///< `allowedDeviationXY`; 0: not said
+  friend bool operator==(const NodePosition&, const NodePosition&) = default;
+};
+
 struct Node {
   std::string id;
   std::uint32_t sequence = 0;      ///< even
   bool released = false;           ///< it belongs to the base; else to the horizon
   std::vector<Action> actions;
   std::string landmark = {};       ///< as found by the plant
+  std::optional<NodePosition> position = {};
   friend bool operator==(const Node&, const Node&) = default;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -17,12 +18,25 @@ OrderBook::Judgement refuse(const Order& order, std::string type, std::string de
   return {OrderBook::Verdict::kRefused, {std::move(type), std::move(description), std::move(references)}};
 }
 
+/// What an order says wrongly of where a node lies: then it is for another plant, or has mixed up its nodes. Empty: nothing.
+std::string wrong_position(const Node& node, const Plant& plant) {
+  if (!node.position) return {};
+  const NodePosition& said = *node.position;
+  if (!said.map.empty() && said.map != plant.map_id()) return fmt::format("node `{}` is on map `{}`; the positions of this vehicle are on map `{}`", node.id, said.map, plant.map_id());
+  const std::optional<Pose> place = plant.place_of(node.id);
+  if (!place) return {};
+  const double off_m = std::hypot(said.x_m - place->x_m, said.y_m - place->y_m);
+  if (off_m <= std::max(said.deviation_m, kNodeWithin_m)) return {};
+  return fmt::format("node `{}` lies at ({:.2f}, {:.2f}), {:.2f} m from where the order says", node.id, place->x_m, place->y_m, off_m);
+}
+
 /// Finds the landmarks and ways of the whole order, including its horizon: what cannot be driven later is better refused now.
 std::optional<OrderBook::Judgement> locate(Order& order, const Plant& plant) {
   for (Node& node : order.nodes) {
     std::optional<std::string> landmark = plant.landmark_of(node.id);
     if (!landmark) return refuse(order, "noRouteError", fmt::format("there is no node `{}`", node.id), {{"nodeId", node.id}});
     node.landmark = std::move(*landmark);
+    if (std::string wrong = wrong_position(node, plant); !wrong.empty()) return refuse(order, "noRouteError", std::move(wrong), {{"nodeId", node.id}});
   }
   for (Edge& edge : order.edges) {
     std::optional<std::vector<Visit>> way = plant.way(edge.id, edge.from, edge.to);

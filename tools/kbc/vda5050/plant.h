@@ -42,6 +42,8 @@ class Plant {
   [[nodiscard]] virtual std::optional<std::string> landmark_of(std::string_view node) const = 0;
   /// The first node at a landmark; nothing if there is none.
   [[nodiscard]] virtual std::optional<std::string> node_at(std::string_view landmark) const = 0;
+  /// Where a node lies, whose heading is not told; nothing if there is no such node.
+  [[nodiscard]] virtual std::optional<Pose> place_of(std::string_view node) const = 0;
   /// How an edge is driven: the landmark of `from` and those that it runs over, without that of `to`. Empty if both are at one spot;
   /// nothing if there is no such edge, or it does not lead from `from` to `to`.
   [[nodiscard]] virtual std::optional<std::vector<Visit>> way(std::string_view edge, std::string_view from, std::string_view to) const = 0;

@@ -41,6 +41,18 @@ void print(const Json& json, std::string& out) {
   out += object ? '}' : ']';
 }
 
+/// A key that an object has more than once, however deep it lies; null if there is none.
+const std::string* key_twice(const Json& json) {
+  std::set<std::string_view> keys;
+  for (const std::string& key : json.keys) {
+    if (!keys.insert(key).second) return &key;
+  }
+  for (const Json& part : json.parts) {   // no deeper than the JSON that the reader accepts
+    if (const std::string* twice = key_twice(part)) return twice;
+  }
+  return nullptr;
+}
+
 /// Whether it is 2.N or 2.N.N: a later 2.N only adds to what this reads.
 bool is_second_version(std::string_view version) {
   std::size_t numbers = 0;
@@ -60,11 +72,13 @@ class Reader {
   explicit Reader(std::string topic) : topic_(std::move(topic)) {}
 
   [[nodiscard]] std::optional<Json> message(std::string_view payload, const Identity& identity) {
+    if (payload == kDropped) return refuse("more messages came at once than this vehicle takes, and at least this one was dropped");
     if (payload.size() > kMostBytes) return refuse(fmt::format("the message is longer than {} bytes", kMostBytes));
     json::Fault fault;
     std::optional<Json> root = json::parse(payload, source::FileId::kNone, fault);
     if (!root) return refuse(fmt::format("this is no JSON: {}, at byte {}", fault.what, fault.span.begin + 1));
     if (root->kind != Json::Kind::kObject) return refuse("the message is no object");
+    if (const std::string* twice = key_twice(*root)) return refuse(fmt::format("`{}` is there twice in one object", clipped(*twice)));
     for (const char* key : {"headerId", "orderId", "orderUpdateId"}) {
       const Json* value = root->find(key);
       if (value != nullptr && (value->kind == Json::Kind::kNumber || value->kind == Json::Kind::kString)) references_.emplace_back(key, clipped(value->text));
@@ -85,6 +99,7 @@ class Reader {
   [[nodiscard]] std::string name(const Json& object, const char* key, std::string_view where) {
     std::string value = text(object, key, where);
     if (!failed() && value.empty()) wrong(fmt::format("{}{} is empty", where, key));
+    if (!failed() && value.find('\0') != std::string::npos) wrong(fmt::format("{}{} has a NUL", where, key));
     if (!failed() && value.size() > kLongestId) wrong(fmt::format("{}{} is longer than {} bytes", where, key, kLongestId));
     return failed() ? "" : value;
   }
@@ -94,6 +109,14 @@ class Reader {
     if (value->number >= 0.0 && value->number <= 4294967295.0 && value->number == std::floor(value->number)) return static_cast<std::uint32_t>(value->number);
     wrong(fmt::format("{}{} is {}, not a whole number from 0 to 4294967295", where, key, clipped(value->text)));
     return 0;
+  }
+  [[nodiscard]] double number(const Json& object, const char* key, const std::string& where) {
+    const Json* value = need(object, key, where, Json::Kind::kNumber);
+    return value != nullptr ? value->number : 0.0;
+  }
+  /// The object of that name; null if it is not there.
+  [[nodiscard]] const Json* part(const Json& object, const char* key, std::string_view where) {
+    return object.find(key) != nullptr ? need(object, key, where, Json::Kind::kObject) : nullptr;
   }
   /// 0 if it is not there.
   [[nodiscard]] double speed(const Json& object, const char* key, std::string_view where) {
@@ -187,9 +210,21 @@ std::vector<Action> read_actions(Reader& reader, const Json& json, const char* k
   return actions;
 }
 
+std::optional<NodePosition> read_node_position(Reader& reader, const Json& node, const std::string& where) {
+  const Json* json = reader.part(node, "nodePosition", where);
+  if (json == nullptr) return std::nullopt;
+  const std::string within = where + "nodePosition.";
+  NodePosition position;
+  position.x_m = reader.number(*json, "x", within);
+  position.y_m = reader.number(*json, "y", within);
+  if (json->find("mapId") != nullptr) position.map = reader.text(*json, "mapId", within);
+  if (json->find("allowedDeviationXY") != nullptr) position.deviation_m = reader.number(*json, "allowedDeviationXY", within);
+  return position;
+}
+
 Node read_node(Reader& reader, const Json& json, const std::string& where) {
   return {reader.name(json, "nodeId", where), reader.count(json, "sequenceId", where), reader.truth(json, "released", where),
-          read_actions(reader, json, "actions", where, kMostActions)};
+          read_actions(reader, json, "actions", where, kMostActions), {}, read_node_position(reader, json, where)};
 }
 
 Edge read_edge(Reader& reader, const Json& json, const std::string& where) {

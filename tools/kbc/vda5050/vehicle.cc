@@ -56,12 +56,20 @@ bool Vehicle::obeys() const { return state_->obeys(); }
 std::vector<HostAction> Vehicle::host_actions() const { return state_->actions.host_actions(); }
 std::vector<Message> Vehicle::take_messages() { return std::exchange(state_->outbox, {}); }
 Message Vehicle::farewell(std::int64_t utc_us) { return connection_message(state_->identity, "OFFLINE", state_->connections++, utc_us); }
-Message Vehicle::will(std::int64_t utc_us) const { return connection_message(state_->identity, "CONNECTIONBROKEN", state_->connections, utc_us); }
+void Vehicle::tell_again(std::int64_t utc_us) { state_->tell_again(utc_us); }
+Message will_of(const Identity& identity, std::uint32_t header_id, std::int64_t utc_us) { return connection_message(identity, "CONNECTIONBROKEN", header_id, utc_us); }
 
 void Vehicle::State::greet(std::int64_t utc_us) {
   if (std::exchange(greeted, true)) return;
   now_us = utc_us;
   send(connection_message(identity, "ONLINE", connections++, utc_us));
+}
+
+void Vehicle::State::tell_again(std::int64_t utc_us) {
+  if (!greeted) return;
+  send(connection_message(identity, "ONLINE", connections++, utc_us));   // first, because the broker may have sent CONNECTIONBROKEN in between
+  if (factsheets > 0) send_factsheet(utc_us);
+  changed = true;
 }
 
 void Vehicle::State::complain(Complaint complaint) {
@@ -104,14 +112,14 @@ void Vehicle::State::complain_of_late(const Order& order) {
 }
 
 void Vehicle::State::begin(Order order) {
-  const bool lost = where().empty();   // just switched on, it has yet to come to the first node
+  believed = where().empty();   // just switched on, it has yet to come to the first node
   actions.forget_order();
   actions.plan(order.nodes, order.edges, true);
   stretch.close();
   gave_up = on_mission = was_on_mission = false;
   passed_m = 0.0;
   book.begin(std::move(order));
-  if ((beyond() != nullptr || lost) && !book.nodes().front().actions.empty()) book.go_back();   // see note [beyond a node]
+  if ((beyond() != nullptr || believed) && !book.nodes().front().actions.empty()) book.go_back();   // see note [beyond a node]
   else actions.trigger(ActionState::Origin::kNode, book.last_sequence());
 }
 

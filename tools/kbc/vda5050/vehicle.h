@@ -86,6 +86,9 @@ struct Sheet {
   double visualization_s = 0.0;                ///< interval of the messages `visualization`, which give its position; 0: never
 };
 
+/// What the broker is to send if the vehicle disappears without leaving (`connection` CONNECTIONBROKEN).
+[[nodiscard]] Message will_of(const Identity& identity, std::uint32_t header_id, std::int64_t utc_us);
+
 class Vehicle {
  public:
   /// `plant` must outlive it.
@@ -110,8 +113,8 @@ class Vehicle {
   [[nodiscard]] std::vector<Message> take_messages();
   /// The last message: the vehicle leaves (`connection` OFFLINE).
   [[nodiscard]] Message farewell(std::int64_t utc_us);
-  /// What the broker is to send if the vehicle disappears without leaving (`connection` CONNECTIONBROKEN).
-  [[nodiscard]] Message will(std::int64_t utc_us) const;
+  /// A connection was made, and whoever listens there may know nothing of the vehicle: tells all that it has told.
+  void tell_again(std::int64_t utc_us);
 
  private:
   struct State;

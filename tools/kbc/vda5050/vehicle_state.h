@@ -37,6 +37,7 @@ struct Vehicle::State {
 
   // vehicle.cc
   void greet(std::int64_t utc_us);
+  void tell_again(std::int64_t utc_us);
   void take_order(const std::string& payload);
   void complain(Complaint complaint);
   [[nodiscard]] std::optional<Complaint> object_to(const Order& order, bool update) const;
@@ -49,6 +50,8 @@ struct Vehicle::State {
 
   // drive.cc
   void follow(const Progress& now, std::int64_t passed_us);
+  void sense(const Progress& now, std::int64_t passed_us);
+  void check_first_sign();
   void reach_next();
   void arrive();
   void drive();
@@ -103,6 +106,7 @@ struct Vehicle::State {
   std::vector<std::string> reports;
   std::int64_t stood_us = 0, helpless_us = 0;        // how long it has stood without a break, and of that with reports
   std::string here, own_mission;
+  bool believed = false;                             // the place where its order begins was not known, and no sign has been read since
   bool held = false, waits = false, stopped = false; // held by a switch on the robot; waits because of its own rules; at a stop line
   bool in_crossing = false, silent = false;
   double speed_m_s = 0.0, turn_rad_s = 0.0, since_m = 0.0;

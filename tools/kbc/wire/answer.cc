@@ -77,12 +77,14 @@ std::string print_answer(const Answer& answer) {
   return out + "}";
 }
 
-std::string print_answer(const Mistake& mistake, std::uint64_t line) {
+std::string print_answer(const Mistake& mistake, std::uint64_t line, const std::vector<vda5050::HostAction>& actions) {
   std::string out = "{\"t\":null,\"speed\":0,\"turn\":0,\"error\":{\"code\":\"" + diagnostics::code_text(mistake.kind) + "\",\"line\":" + std::to_string(line) +
                     ",\"column\":" + std::to_string(mistake.span.begin + 1);
   append_text(out, "field", mistake.field);
   append_text(out, "message", message_of(mistake));
-  return out + "}}";
+  out += '}';
+  if (!actions.empty()) append_actions(out, actions);
+  return out + "}";
 }
 
 std::string print_end(std::string_view why) {

@@ -34,8 +34,8 @@ struct Answer {
 /// The answer without line break. `waits`, `actions` and `mind` are included only if true or not empty, `seen` only with a tick, `outputs` if there
 /// can be any; all else always.
 [[nodiscard]] std::string print_answer(const Answer& answer);
-/// An answer with wheels 0 and the mistake in line `line`.
-[[nodiscard]] std::string print_answer(const Mistake& mistake, std::uint64_t line);
+/// An answer with wheels 0 and the mistake in line `line`. `actions`: as in Answer, for a mistake in a line ends none of them.
+[[nodiscard]] std::string print_answer(const Mistake& mistake, std::uint64_t line, const std::vector<vda5050::HostAction>& actions = {});
 /// The last answer, with wheels 0: `why` it ends.
 [[nodiscard]] std::string print_end(std::string_view why);
 

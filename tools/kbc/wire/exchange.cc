@@ -12,6 +12,7 @@ using diagnostics::Kind;
 
 namespace {
 
+constexpr std::size_t kMostGiven = 20'000;   // twice as many as can be under way at once
 constexpr int kManyPauses = 5;   // so many pauses in a row mean that the host is just slow
 
 /// The first multiple of `dt_us` from `t_us` on.
@@ -47,7 +48,14 @@ std::string Exchange::answer(std::string_view text, std::uint64_t number) {
   line_.reset();
   warning_.reset();
   mistake_ = take(text, answer);
-  return mistake_ ? print_answer(*mistake_, number) : print_answer(answer);
+  return mistake_ ? print_answer(*mistake_, number, actions_) : print_answer(answer);
+}
+
+std::string Exchange::refuse(const Mistake& mistake, std::uint64_t number) {
+  line_.reset();
+  warning_.reset();
+  mistake_ = mistake;
+  return print_answer(mistake, number, actions_);
 }
 
 std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
@@ -62,6 +70,7 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   const bool away = began_ && (set_back || gap_us > options_.pause_us);
   leapt_from_ = away && !set_back ? std::optional(clock_) : std::nullopt;
   pauses_ = away ? pauses_ + 1 : 0;
+  warn_of_what_nobody_hears(line);
   if (pauses_ == kManyPauses) warning_ = Mistake{Kind::kWireSlow, {std::to_string(kManyPauses), seconds(options_.pause_us), {}}, "t", line.t_at};
   hear_buttons(away);
   if (away || rests()) clock_.ticked_us.reset();
@@ -103,6 +112,34 @@ std::optional<Mistake> Exchange::follow_clock(const Line& line, bool& set_back) 
   }
   refused_us_ = line.t_us;
   return Mistake{Kind::kWireTime, {now, before, {}}, "t", line.t_at};
+}
+
+/// A host that waits for something to come of it would wait in vain. Each is said once.
+void Exchange::warn_of_what_nobody_hears(const Line& line) {
+  if (warning_) return;
+  if (!options_.has_master && !warned_of_master_) {
+    warned_of_master_ = line.vehicle_at.end > 0 || line.actions_at.end > 0;
+    const bool vehicle = line.vehicle_at.end > 0;
+    if (warned_of_master_) warning_ = Mistake{Kind::kWireNoMaster, {vehicle ? "vehicle" : "actions", {}, {}}, {}, vehicle ? line.vehicle_at : line.actions_at};
+  }
+  for (const vda5050::HostActionState& report : line.actions) {
+    if (!options_.has_master || warning_ || given_.contains(report.id)) continue;
+    warning_ = Mistake{Kind::kWireOtherAction, {source::printable(report.id), {}, {}}, "actions", line.actions_at};
+    remember_given(report.id);
+  }
+}
+
+void Exchange::set_actions(std::vector<vda5050::HostAction> actions) {
+  actions_ = std::move(actions);
+  for (const vda5050::HostAction& action : actions_) remember_given(action.id);
+}
+
+void Exchange::remember_given(const std::string& id) {
+  if (!given_.insert(id).second) return;
+  given_in_turn_.push_back(id);
+  if (given_in_turn_.size() <= kMostGiven) return;
+  given_.erase(given_in_turn_.front());
+  given_in_turn_.pop_front();
 }
 
 /// See note [a host that was away].

@@ -22,9 +22,11 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,6 +48,7 @@ inline constexpr std::int64_t kPauseUs = 500'000;   ///< the default pause: see 
 struct ExchangeOptions {
   std::uint32_t dt_us = 100'000;
   std::int64_t pause_us = kPauseUs;
+  bool has_master = false;   ///< a fleet's master hears what the robot says of itself and of its actions
   /// Called with each tick, its line as `kbc run --trace` writes it, and the facts that it was given.
   std::function<void(const program::Tick& tick, std::string_view json, std::span<const float> facts)> on_tick{};
 };
@@ -57,6 +60,8 @@ class Exchange {
 
   /// The answer to one line, without line break. `number`: the number of the line, from 1. Never throws because of its contents.
   [[nodiscard]] std::string answer(std::string_view text, std::uint64_t number);
+  /// The answer to a line that is not even looked at, because of a mistake.
+  [[nodiscard]] std::string refuse(const Mistake& mistake, std::uint64_t number);
   /// Takes another knowledge base from the next tick on: see sim::can_take, which must hold for it and the first one; see
   /// note [another mind between two lines]. It must outlive the exchange, and so must the first one; those between need not.
   void take(const sim::Knowledge& next);
@@ -76,7 +81,7 @@ class Exchange {
   /// Whether it stands until a button is pressed: see note [a host that was away].
   [[nodiscard]] bool waits() const { return clock_.waits; }
   /// What the host is to do besides driving, in each answer from the next one on.
-  void set_actions(std::vector<vda5050::HostAction> actions) { actions_ = std::move(actions); }
+  void set_actions(std::vector<vda5050::HostAction> actions);
   /// The line answered last; nothing if it was not understood.
   [[nodiscard]] const std::optional<Line>& line() const { return line_; }
   /// The time of that line by the host's clock, as if that had never been set back; that of the line before while its `t` may be wrong.
@@ -87,7 +92,7 @@ class Exchange {
   [[nodiscard]] mts::Motion wheels() const { return wheels_; }
   /// The mistake in that line. Such a line changes nothing, except that the wheels stand.
   [[nodiscard]] const std::optional<Mistake>& mistake() const { return mistake_; }
-  /// A warning about the clock with that line, which was understood.
+  /// A warning with that line, which was understood: about the clock, or of something that nobody hears.
   [[nodiscard]] const std::optional<Mistake>& warning() const { return warning_; }
 
  private:
@@ -101,6 +106,8 @@ class Exchange {
 
   [[nodiscard]] std::optional<Mistake> take(std::string_view text, Answer& answer);
   [[nodiscard]] std::optional<Mistake> follow_clock(const Line& line, bool& set_back);
+  void warn_of_what_nobody_hears(const Line& line);
+  void remember_given(const std::string& id);
   void hear_buttons(bool away);
   void hear_sensors(std::int64_t t_us);
   [[nodiscard]] std::optional<Mistake> look_up(const Line& line);
@@ -124,6 +131,9 @@ class Exchange {
   std::optional<Mistake> mistake_, warning_;
   std::optional<Line> line_;
   std::vector<vda5050::HostAction> actions_;
+  std::set<std::string, std::less<>> given_;         // the ids of actions that were in an answer, or that were warned of
+  std::deque<std::string> given_in_turn_;            // the same, oldest first
+  bool warned_of_master_ = false;
 
   // The names of the present line, looked up.
   sim::TagHeard tag_;

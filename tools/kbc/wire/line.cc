@@ -139,9 +139,9 @@ constexpr std::array kFields{
       "object", "what the host says itself: names and certainties from -1 to 1; it goes before what is perceived"},
     Field<Draft>{"readings", read_readings,
       "object", "of sensors that only the knowledge base knows: numbers in m, s, m/s, deg, deg/s or without a unit, texts, lists of arrays; null: silent"},
-    Field<Draft>{"vehicle", [](Reading& reading, const Json& json, Draft& draft) { read_vehicle(reading, json, draft.line.vehicle); },
+    Field<Draft>{"vehicle", [](Reading& reading, const Json& json, Draft& draft) { draft.line.vehicle_at = json.span; read_vehicle(reading, json, draft.line.vehicle); },
       "object", "of who drives by --orders: battery in percent, charging, field_violation; e_stop: NONE, AUTOACK, MANUAL or REMOTE; mode: AUTOMATIC, SEMIAUTOMATIC, MANUAL, SERVICE or TEACHIN"},
-    Field<Draft>{"actions", [](Reading& reading, const Json& json, Draft& draft) { read_actions(reading, json, draft.line.actions); },
+    Field<Draft>{"actions", [](Reading& reading, const Json& json, Draft& draft) { draft.line.actions_at = json.span; read_actions(reading, json, draft.line.actions); },
       "list of objects", "of who drives by --orders: how far an action of the answers is: id, status (running, paused, finished or failed), result"},
     Field<Draft>{"answered", [](Reading&, const Json&, Draft&) {}},   // recordings have it too
 };

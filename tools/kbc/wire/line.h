@@ -45,7 +45,7 @@ struct Line {
   std::vector<Measured> readings;
   Vehicle vehicle;
   std::vector<vda5050::HostActionState> actions;
-  source::Span t_at{};             ///< the place of the time
+  source::Span t_at{}, vehicle_at{}, actions_at{};   ///< the places of the time, and of these fields; empty: it has them not
 };
 
 /// Reads a line, or its first mistake. Names are not looked up. O(bytes).

@@ -71,9 +71,11 @@ bool LineChannel::take(std::string& line, Came& came) {
 
 LineChannel::Came LineChannel::read(std::string& line, int within_ms) {
   const std::int64_t until_ms = until(within_ms);
-  for (Came came{};;) {
+  bool late = false;   // something always comes, and never a line
+  for (Came came{};; late = now_ms() > until_ms) {
     if (take(line, came)) return came;
     if (ended_) return Came::kEnd;
+    if (late) return Came::kLate;
     if (const Came ready = wait(in_, POLLIN, until_ms); ready != Came::kLine) return ready;
     char chunk[1 << 14];
     const ::ssize_t got = ::read(in_, chunk, sizeof chunk);
@@ -93,20 +95,28 @@ bool LineChannel::holds_more() const {
 }
 
 LineChannel::Came LineChannel::write(std::string_view line, int within_ms) {
+  going_ = line;
+  going_ += '\n';
+  return write_on(within_ms);
+}
+
+LineChannel::Came LineChannel::write_on(int within_ms) {
   const std::int64_t until_ms = until(within_ms);
-  std::string bytes(line);
-  bytes += '\n';
-  for (std::string_view rest = bytes; !rest.empty();) {
-    if (const Came ready = wait(out_, POLLOUT, until_ms); ready != Came::kLine) return ready;
+  for (std::size_t done = 0;;) {
+    const std::string_view rest = std::string_view(going_).substr(done);
+    const Came ready = rest.empty() ? Came::kLine : wait(out_, POLLOUT, until_ms);
+    if (rest.empty() || ready != Came::kLine) {
+      going_.erase(0, done);
+      return ready;
+    }
     const ::ssize_t put = ::write(out_, rest.data(), std::min<std::size_t>(rest.size(), 4096));   // a pipe with any room has room for so much
     if (put < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (put < 0) {
       error_ = errno;
       return error_ == EPIPE ? Came::kEnd : Came::kFailed;
     }
-    rest.remove_prefix(static_cast<std::size_t>(put));
+    done += static_cast<std::size_t>(put);
   }
-  return Came::kLine;
 }
 
 }  // namespace kb::wire

@@ -40,8 +40,10 @@ class LineChannel {
   [[nodiscard]] Came read(std::string& line, int within_ms);
   /// Whether something arrived that was not read.
   [[nodiscard]] bool holds_more() const;
-  /// Writes the line and a line break, waiting at most `within_ms` for room. kLine: it is written; kEnd: there is no reader.
+  /// Writes the line and a line break, waiting at most `within_ms` for room. kLine: it is written; kEnd: there is no reader; kLate: `write_on`
+  /// can write the rest of it.
   [[nodiscard]] Came write(std::string_view line, int within_ms);
+  [[nodiscard]] Came write_on(int within_ms);
   /// errno of the failure.
   [[nodiscard]] int error() const { return error_; }
 
@@ -52,6 +54,7 @@ class LineChannel {
   int in_, out_;
   bool (*stop_)();
   std::string come_;              // arrived and not read
+  std::string going_;             // not written yet
   std::size_t looked_ = 0;        // how much of it is known to have no line break
   bool skips_ = false, ended_ = false;   // skipping the rest of a line that was too long
   int error_ = 0;

@@ -17,7 +17,7 @@ struct LinkOptions {
   std::string interface_name = "uagv"; ///< the first part of all topics
   std::string ca_file;                 ///< with `mqtts://`: the trusted certificate authorities, PEM; empty: those of the system
   std::string user, password;          ///< for the broker; empty: none. A user in the URL overrides this one
-  Message will;                        ///< what the broker sends if the vehicle disappears without leaving
+  Will will;                           ///< what the broker sends if the vehicle disappears without leaving
 };
 
 /// Takes WAYMARK_MQTT_USER and WAYMARK_MQTT_PASSWORD from the environment.

@@ -34,6 +34,8 @@ constexpr milliseconds kFarewell{1000};
 constexpr std::size_t kMostWaiting = 64, kMostNews = 16;
 constexpr std::string_view kConnection = "connection";
 
+std::int64_t now_utc_us() { return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch()).count(); }
+
 /// Why the broker refuses, by its answer to CONNECT (MQTT 3.1.1, table 3.1).
 std::string refusal(int code) {
   static constexpr const char* kWords[] = {"it does not speak MQTT 3.1.1", "it does not want a client of this name", "it is not ready", "user or password are wrong", "this user may not connect"};
@@ -57,6 +59,7 @@ class Session {
 
   [[nodiscard]] std::optional<Message> next();
   void send(const Message& message);
+  [[nodiscard]] bool connected_anew();
   [[nodiscard]] std::string news();
 
  private:
@@ -68,11 +71,13 @@ class Session {
 
   using Client = std::unique_ptr<mosquitto, void (*)(mosquitto*)>;
   [[nodiscard]] Client make_client(std::string& error);
+  [[nodiscard]] std::uint32_t next_will();
   void set_callbacks(mosquitto* client);
   [[nodiscard]] Ended attempt(const char* from);
   void disconnect();
   [[nodiscard]] bool wants_to_go_on();
   [[nodiscard]] std::string reason(int code, int system_error);
+  [[nodiscard]] std::string closed();
   void publish(const Message& message);
   void tell(std::string text);
   [[nodiscard]] std::string topic(std::string_view last) const { return fmt::format("{}/{}", options_.topics, last); }
@@ -89,6 +94,7 @@ class Session {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool leaves_ = false, gone_ = false, connected_ = false, was_connected_ = false;
+  bool anew_ = false;                    // connected since the last question
   Clock::time_point leaves_at_{};
   std::deque<Message> came_;
   std::map<std::string, Message> kept_;  // by topic
@@ -96,6 +102,8 @@ class Session {
   std::deque<std::string> news_;
   std::string told_, refused_, tls_;     // the last news; why the broker refused; why TLS failed
   std::size_t dropped_ = 0;
+  std::uint32_t connections_told_ = 0;   // how many messages `connection` the vehicle has sent
+  int closed_ = 0;                       // how many connections the broker has closed without a word
 };
 
 void Session::set_callbacks(mosquitto* client) {
@@ -115,6 +123,12 @@ void Session::set_callbacks(mosquitto* client) {
   });
 }
 
+/// The number of the will: ONLINE comes before it.
+std::uint32_t Session::next_will() {
+  const std::lock_guard lock(mutex_);
+  return connections_told_ + 1;
+}
+
 Session::Client Session::make_client(std::string& error) {
   Client client(mosquitto_new(options_.client.c_str(), true, this), mosquitto_destroy);
   if (client == nullptr) throw std::bad_alloc();
@@ -122,8 +136,8 @@ Session::Client Session::make_client(std::string& error) {
   mosquitto_threaded_set(raw, true);
   set_callbacks(raw);
   const Broker& broker = options_.broker;
-  const std::string& will = options_.will.payload;
-  int code = mosquitto_will_set(raw, topic(options_.will.topic).c_str(), static_cast<int>(will.size()), will.data(), 1, true);
+  const Message will = options_.will(next_will(), now_utc_us());
+  int code = mosquitto_will_set(raw, topic(will.topic).c_str(), static_cast<int>(will.payload.size()), will.payload.data(), 1, true);
   const auto then = [&code](auto set) {
     if (code == MOSQ_ERR_SUCCESS) code = set();
   };
@@ -212,12 +226,19 @@ std::string Session::reason(int code, int system_error) {
   switch (code) {
     case MOSQ_ERR_ERRNO: return source::reason(system_error);
     case MOSQ_ERR_EAI: return "there is no such host";
-    case MOSQ_ERR_CONN_LOST: return refused_.empty() ? "it has closed the connection" : refused_;
+    case MOSQ_ERR_CONN_LOST: return !refused_.empty() ? refused_ : closed();
     case MOSQ_ERR_CONN_REFUSED: return refused_;
     case MOSQ_ERR_KEEPALIVE: return "it does not answer";
     case MOSQ_ERR_TLS: return tls_.empty() ? "TLS failed" : "TLS: " + tls_;
     default: return mosquitto_strerror(code);
   }
+}
+
+/// Brokers close a connection without a word if another client comes with the same name, and the two then take it from each other in turn.
+std::string Session::closed() {
+  const std::string text = "it has closed the connection";
+  if (was_connected_) ++closed_;
+  return closed_ < 2 ? text : fmt::format("{}; if this goes on, another program has the name of this vehicle, `{}`", text, options_.client);
 }
 
 /// This and the functions below are called with the mutex held.
@@ -240,6 +261,7 @@ void Session::send(const Message& message) {
   const std::lock_guard lock(mutex_);
   if (connected_) publish(message);
   if (message.topic != "visualization") kept_[message.topic] = message;
+  if (message.topic == kConnection) ++connections_told_;
 }
 
 void Session::on_connect(int code) {
@@ -252,6 +274,8 @@ void Session::on_connect(int code) {
   tell("connected");
   // Subscribe before `connection` is published: a master may answer that with an order at once.
   for (const char* const name : {"order", "instantActions"}) static_cast<void>(mosquitto_subscribe(client_.get(), nullptr, topic(name).c_str(), 0));
+  anew_ = !leaves_;
+  if (anew_) return;
   if (const auto first = kept_.find(std::string(kConnection)); first != kept_.end()) publish(first->second);
   for (const auto& [name, message] : kept_) {
     if (name != kConnection) publish(message);
@@ -270,11 +294,13 @@ void Session::on_message(const mosquitto_message& message) {
   const std::lock_guard lock(mutex_);
   const std::string last(name.substr(name.rfind('/') + 1));
   if (message.retain) return tell(fmt::format("`{}` that the broker had kept is passed over: it may be of any day", last));
-  if (came_.size() == kMostWaiting || size > kMostBytes) {
-    ++dropped_;
-    return;
+  const bool room = came_.size() < kMostWaiting;
+  if (!room || size > kMostBytes) ++dropped_;
+  if (room) {
+    came_.push_back({last, std::string(static_cast<const char*>(message.payload), std::min(size, kMostBytes + 1))});
+  } else if (std::none_of(came_.begin(), came_.end(), [&](const Message& one) { return one.topic == last && one.payload == kDropped; })) {
+    came_.push_back({last, kDropped});
   }
-  came_.push_back({last, std::string(static_cast<const char*>(message.payload), size)});
 }
 
 std::optional<Message> Session::next() {
@@ -283,6 +309,11 @@ std::optional<Message> Session::next() {
   Message message = std::move(came_.front());
   came_.pop_front();
   return message;
+}
+
+bool Session::connected_anew() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(anew_, false);
 }
 
 std::string Session::news() {
@@ -315,9 +346,8 @@ class MqttLink final : public Link {
 
   [[nodiscard]] std::optional<Message> next(std::int64_t /*t_us*/) override { return session_->next(); }
   void send(const Message& message, std::int64_t /*t_us*/) override { session_->send(message); }
-  [[nodiscard]] std::int64_t utc_us(std::int64_t /*t_us*/) override {
-    return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
-  }
+  [[nodiscard]] std::int64_t utc_us(std::int64_t /*t_us*/) override { return now_utc_us(); }
+  [[nodiscard]] bool connected_anew() override { return session_->connected_anew(); }
   [[nodiscard]] std::string news() override { return session_->news(); }
 
  private:

@@ -2,9 +2,8 @@
 //
 // note [a broker that goes away]
 // The network has a thread of its own, so that a robot never waits for it. A lost connection is tried again, at first after half a second,
-// in the end after eight. A vehicle's message is its whole state, so messages that were missed need not be sent later. The last message of
-// each topic is kept and sent again over a new connection, as the old one may not have carried it: `connection` first, because the broker
-// has sent CONNECTIONBROKEN in between. `visualization` is not kept.
+// in the end after eight. A vehicle's message is its whole state, so messages that were missed need not be sent later: over a new connection
+// it tells anew what it is like (`connected_anew`). Only what it said last is kept, for a link that ends before it has connected.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@ struct MqttOptions {
   std::string ca_file;     ///< trusted certificate authorities, PEM; empty: those of the system. Nothing: no TLS
   std::string topics;      ///< the prefix of each topic, `uagv/v2/Acme/7`
   std::string client;      ///< its name to the broker, unique among clients
-  Message will;            ///< what the broker sends if the vehicle disappears without leaving
+  Will will;               ///< what the broker sends if the vehicle disappears without leaving; called by the thread, for each connection
 };
 
 /// Whether this program can speak MQTT.
@@ -30,8 +29,8 @@ struct MqttOptions {
 
 /// A link that begins to connect at once and keeps trying. Null if that is impossible; `error` says why. Subscribes `order` and
 /// `instantActions` (QoS 0); sends `connection` with QoS 1, retained, and all else with QoS 0. At most 64 messages of the master wait to
-/// be taken, each of at most kMostBytes. Others are dropped, and so are messages that the broker has retained from before; both are
-/// reported by `news`. The destructor waits for sending to finish, at most a second, and disconnects from the broker.
+/// be taken. The first one of a topic that finds no room is replaced by kDropped, the others are dropped. Of one of more than kMostBytes only
+/// the beginning comes, one byte too long. Messages that the broker has retained from before are dropped. All this is reported by `news`. The destructor waits for sending to finish, at most a second, and disconnects from the broker.
 [[nodiscard]] std::unique_ptr<Link> open_mqtt(MqttOptions options, std::string& error);
 
 }  // namespace kb::vda5050

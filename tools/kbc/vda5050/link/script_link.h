@@ -59,6 +59,7 @@ class Recorder final : public Link {
   void send(const Message& message, std::int64_t t_us) override;
   [[nodiscard]] std::int64_t utc_us(std::int64_t t_us) override { return link_->utc_us(t_us); }
   [[nodiscard]] bool live() const override { return link_->live(); }
+  [[nodiscard]] bool connected_anew() override { return link_->connected_anew(); }
   [[nodiscard]] std::string news() override { return link_->news(); }
 
  private:

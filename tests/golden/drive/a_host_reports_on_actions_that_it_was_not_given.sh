@@ -1,0 +1,1 @@
+# RUN: touch %t/none.jsonl; for line in '1,"actions":[{"id":"pick","status":"running"}]' '1.02,"actions":[{"id":"pick","status":"finished"}]' '1.04,"actions":[{"id":"b\u0007","status":"running"}]'; do echo "{\"t\":$line}"; done | kbc drive orders.d/yard.kb --orders %t/none.jsonl | grep -c '"error"'; test $? = 1
