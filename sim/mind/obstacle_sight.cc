@@ -1,4 +1,4 @@
-// Decides which readings of the range finders are obstacles.
+// Decides which readings of the range finders are obstacles, and which lines are stop lines that count.
 #include <algorithm>
 #include <cmath>
 
@@ -25,6 +25,9 @@ constexpr float kLineBehind = 0.3f;          // m: a line nearer than this to th
 constexpr float kHolds = 0.24f;              // m, ahead or at 45 degrees: a controller stands rather than graze something that is nearer
 constexpr float kHeldUp = 1.0f;              // s
 constexpr float kStillTurns = 0.05f, kStillDrives = 0.02f;   // rad/s, m/s
+constexpr float kLineIn = 0.15f;             // m into a crossing: a line met no farther in is that of the way in
+constexpr double kStarReaches = 0.1;         // m behind the middle of a crossing: up to there the lines of several roads lie beside each other;
+constexpr double kApart = 0.35;              // m before a stop line that lies farther out they no longer do
 
 }  // namespace
 
@@ -97,6 +100,19 @@ bool Perception::near_line_behind() const {
 bool Perception::back_on_road() const {
   const Progress now = road_.progress(reckoning_.at);
   return !out_awaited_ || (now.aside_m < kAside && now.turned_rad < kAlongRoad);
+}
+
+/// Whether a line below the sensors cannot be the line out yet. Around the middle of a crossing, the lines of five roads can be as dark as
+/// a stop line, so only a line behind it counts. The smaller the angle between two roads, the longer their lines lie together, and the
+/// farther out their stop lines are.
+bool Perception::before_middle() const {
+  if (phase_ != Phase::kInside) return false;
+  double reach_m = 0.0;
+  if (memory_ != nullptr) {
+    const double star_m = exit_ == kNoExit ? 0.0 : memory_->exits[exit_].stop_m - kApart;
+    reach_m = memory_->exits[arm_].stop_m + std::max(kStarReaches, star_m);
+  }
+  return since_m_ < std::max(kLineIn, static_cast<float>(reach_m));   // a robot that waited at the line in drives over that line now
 }
 
 /// Whether a stop line lies below the sensors, or just behind them (see note [an order begins at the line]), and is the one that the robot had to come to.

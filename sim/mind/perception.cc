@@ -14,9 +14,6 @@ constexpr float kInOrOut = 0.35f;            // cosine of the angle within which
 constexpr float kReads = 0.25f;              // s: how long the sign of an arrival must be read before it counts
 constexpr float kApproachLasts = 0.8f;       // m, after the last reading of a sign
 constexpr float kCrossingLasts = 3.0f;       // m, in a crossing: without a sign of its exits it counts as left after this way
-constexpr float kLineIn = 0.15f;             // m into a crossing: a line met no farther in is that of the way in
-constexpr double kStarReaches = 0.1;         // m behind the middle of a crossing: up to there the lines of several roads lie beside each other;
-constexpr double kApart = 0.35;              // m before a stop line that lies farther out they no longer do
 constexpr float kFades = 0.15f;              // by how much the certainty of a landmark falls with each metre
 constexpr float kEndless = 1e3f;             // m: a piece of which only the heading is known
 constexpr double kSameArm = kPi / 4;         // rad
@@ -345,19 +342,6 @@ bool Perception::come_about() const {
   const auto back = way_back_rad();
   if (!back) return std::abs(round_rad_) > kHalfTurn;
   return std::abs(wrap(static_cast<double>(reckoning_.at.heading_rad - *back))) < kTurnedTo;
-}
-
-/// Whether a line below the sensors cannot be the line out yet. Around the middle of a crossing, the lines of five roads can be as dark as
-/// a stop line, so only a line behind it counts. The smaller the angle between two roads, the longer their lines lie together, and the
-/// farther out their stop lines are.
-bool Perception::before_middle() const {
-  if (phase_ != Phase::kInside) return false;
-  double reach_m = 0.0;
-  if (memory_ != nullptr) {
-    const double star_m = exit_ == kNoExit ? 0.0 : memory_->exits[exit_].stop_m - kApart;
-    reach_m = memory_->exits[arm_].stop_m + std::max(kStarReaches, star_m);
-  }
-  return since_m_ < std::max(kLineIn, static_cast<float>(reach_m));   // a robot that waited at the line in drives over that line now
 }
 
 void Perception::write(std::span<float> facts) {
