@@ -114,6 +114,17 @@ class Scanner {
     out_.tokens.push_back({kind, span()});
     return true;
   }
+  bool bracket(TokenKind kind, int opens) {
+    open_ = std::max(open_ + opens, 0);
+    return token(kind);
+  }
+  /// Within parentheses it was meant to separate, elsewhere to end a statement. At the end of a line the parenthesis was forgotten.
+  bool semicolon() {
+    const unsigned char* next = cursor_;
+    while (*next == ' ' || *next == '\t') ++next;
+    const bool separates = open_ > 0 && *next != '\n' && *next != '\r' && *next != '#';
+    return separates ? foreign(TokenKind::kComma) : error(Kind::kSemicolon, span(), {}, {}, true);
+  }
   bool error(Kind kind, source::Span at, std::string first = {}, std::string second = {}, bool repaired = false) {
     auto& errors = out_.errors;
     if (is_run(kind) && !errors.empty() && errors.back().kind == kind && errors.back().span.end == at.begin) {
@@ -166,6 +177,7 @@ class Scanner {
   const unsigned char* cursor_ = nullptr;
   const unsigned char* marker_ = nullptr;
   const unsigned char* context_marker_ = nullptr;
+  int open_ = 0;   // parentheses and brackets that are open
   const unsigned char* begin_ = nullptr;
   Scan out_;
 };
@@ -180,12 +192,12 @@ bool Scanner::next() {
     number               { number(); return true; }
     "\""                 { string(); return true; }
 
-    "{"                  { return token(TokenKind::kLeftBrace); }
-    "}"                  { return token(TokenKind::kRightBrace); }
-    "("                  { return token(TokenKind::kLeftParen); }
-    ")"                  { return token(TokenKind::kRightParen); }
-    "["                  { return token(TokenKind::kLeftBracket); }
-    "]"                  { return token(TokenKind::kRightBracket); }
+    "{"                  { return bracket(TokenKind::kLeftBrace, -open_); }   // what is open before a block was forgotten
+    "}"                  { return bracket(TokenKind::kRightBrace, -open_); }
+    "("                  { return bracket(TokenKind::kLeftParen, 1); }
+    ")"                  { return bracket(TokenKind::kRightParen, -1); }
+    "["                  { return bracket(TokenKind::kLeftBracket, 1); }
+    "]"                  { return bracket(TokenKind::kRightBracket, -1); }
     ","                  { return token(TokenKind::kComma); }
     ":"                  { return token(TokenKind::kColon); }
     "."                  { return token(TokenKind::kDot); }
@@ -238,7 +250,8 @@ bool Scanner::next() {
     "\uff0b"             { return foreign(TokenKind::kPlus); }
     "\uff0e"             { return foreign(TokenKind::kDot); }
     [\uff5e\u223c]       { return foreign(TokenKind::kTilde); }
-    ";"                  { return error(Kind::kSemicolon, span(), {}, {}, true); }
+    ";" / (blank* [+\-]) { return foreign(TokenKind::kComma); }   // no statement begins with a sign, but the second of two effects does
+    ";"                  { return semicolon(); }
     "//"                 { foreign_comment(false); return true; }
     "/*"                 { foreign_comment(true); return true; }
 

@@ -263,7 +263,9 @@ Outcome Conditions::report_many(const Pattern& pattern, const Operand& operand) 
   const Entity* named = draft_.names.find(text);
   if (named != nullptr && named->twice) return Outcome::kBroken;   // perhaps the other one is meant
   const std::string name = (pattern.sat ? "sat " : "") + std::string(text);
-  draft_.diagnostics.report(Kind::kWholeGroup, references_.span(pattern.ref), {text, references_.describe(operand), name, name});
+  const bool of_exits = of_road_ && named != nullptr && named->kind == Entity::Kind::kGroup && draft_.model.groups[named->id].dimensions == std::vector{draft_.exits};
+  const std::string one = of_exits ? fmt::format("`{}[exit]`", name) : fmt::format("`any {0}` or `no {0}`, or index it", name);
+  draft_.diagnostics.report(Kind::kWholeGroup, references_.span(pattern.ref), {text, references_.describe(operand), one});
   return Outcome::kBroken;
 }
 

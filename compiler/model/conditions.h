@@ -19,6 +19,8 @@ class Conditions {
  public:
   Conditions(Draft& draft, const syntax::Tree& tree, References& references)
       : draft_(draft), tree_(tree), references_(references) {}
+  /// The condition is about one road, whose exit it may name `exit`: of a group over exits that one is probably meant.
+  void of_road() { of_road_ = true; }
 
   /// The compiled form of a condition; parts that are the same in all instances are resolved here, once.
   std::uint32_t compile(syntax::CondId cond);
@@ -58,6 +60,7 @@ class Conditions {
   Draft& draft_;
   const syntax::Tree& tree_;
   References& references_;
+  bool of_road_ = false;
   std::vector<Pattern> patterns_;
 };
 

@@ -16,6 +16,7 @@ class KeptReader {
     if (of_leg) {
       binders_.push_back({{{}, "exit"}, RelationId::kNone, false, false});
       binders_.push_back({{{}, "leg"}, *find_relation(draft, "Leg"), false, false});
+      conditions_.of_road();
     }
     pattern_ = conditions_.compile(cond);
   }

@@ -127,7 +127,7 @@ class Loader {
     source::FileSystem::Result result = files_.read(path);
     if (!result.bytes) {
       state_[name] = State::kUnreadable;
-      return report_unreadable(path, at, written, result);
+      return report_unreadable(path, at, standard, written, result);
     }
     state_[name] = State::kOpen;
     if (stack_.empty()) main_folder_ = folder_of(path);
@@ -142,7 +142,7 @@ class Loader {
     return diagnostics::visible(std::filesystem::path(path).lexically_relative(base.empty() ? "." : base).generic_string());
   }
 
-  void report_unreadable(const std::string& path, source::Span at, std::string_view written,
+  void report_unreadable(const std::string& path, source::Span at, bool standard, std::string_view written,
                          const source::FileSystem::Result& result) {
     if (result.too_large) {
       refuse(Kind::kFileTooLarge, at, {path, std::to_string(source::kMaxFileBytes >> 20)});
@@ -152,9 +152,11 @@ class Loader {
       refuse(Kind::kCannotRead, at, {path, result.error}).suggest(near_file(path, files_));
       return;
     }
-    refuse(Kind::kImportNotFound, at, {written, result.error})
-        .note(Kind::kLookedIn, {}, {path})
-        .suggest(meant(path, written));
+    auto message = refuse(Kind::kImportNotFound, at, {written, result.error});
+    const auto better = meant(path, written);
+    const bool no_library = standard && !better && files_.read(joined(library_, "std")).error == result.error;   // folder and file are missing
+    if (no_library) message.note(Kind::kNameLibrary, {}, {library_});
+    else message.note(Kind::kLookedIn, {}, {path}).suggest(better);
   }
 
   /// A file that exists and that the user may have meant by `path`, as the user would write it. Tries up to a thousand names.

@@ -4,7 +4,8 @@
 // The compiler knows no directions. The exits of all roads are members of one finite set: the set of the knowledge base that
 // has most of the names which roads use as exits (of several such sets the one declared first). A name that is not in this set
 // is an error at its place, with the line `names S more { ... }` that would add it. The set of the methods after `by` is found
-// in the same way, but sets over which strategies are declared are preferred, because a strategy drives each road.
+// in the same way, but sets over which strategies are declared are preferred, because a strategy drives each road. If no set has
+// any of the names, they are measured by the sets that std.basics calls `Direction` and `Method`, if there are such sets.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,6 +50,11 @@ SetId best_set(const Draft& draft, const std::vector<syntax::Name>& words, const
     best = SetId{static_cast<std::uint32_t>(i)};
   }
   return best;
+}
+
+SetId usual_set(const Draft& draft, std::string_view name) {
+  const auto found = draft.set_of.find(name);
+  return found == draft.set_of.end() ? SetId::kNone : found->second;
 }
 
 /// For each set whether there is a strategy for each of its members.
@@ -328,6 +334,8 @@ void choose_exits(Draft& draft) {
   draft.exits = best_set(draft, exits.words());
   draft.methods = best_set(draft, methods.words(), driven);
   check_methods(draft, methods.words(), driven);
+  if (draft.exits == SetId::kNone && !exits.words().empty()) draft.exits = usual_set(draft, "Direction");
+  if (draft.methods == SetId::kNone && !methods.words().empty()) draft.methods = usual_set(draft, "Method");
 }
 
 void declare_map(Draft& draft, const syntax::Map& map) { MapReader(draft, map).run(); }

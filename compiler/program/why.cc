@@ -37,9 +37,10 @@ float limit_of(const Program& program, const Record& record, CellId fact) {
 
 class Explainer {
  public:
-  Explainer(const Program& program, const Record& record, std::uint32_t level)
+  Explainer(const Program& program, const Record& record, std::uint32_t level, Detail detail)
       : program_(program),
         record_(record),
+        detail_(detail),
         level_(record.levels[level]),
         firing_(static_cast<float>(program.settings.firing)) {}
 
@@ -100,8 +101,9 @@ class Explainer {
     const bool went = record_.lost[index(cond.cell)], for_lost = cond.op == Cond::Op::kLost;
     if (for_lost && !went) return fmt::format("`{}` is not seen, and was not before", name(cond.cell));
     const float cf = value(cond.cell), limit = limit_of(program_, record_, cond.cell);
-    return fmt::format("`{}` {}, at {}, seen above {}{}", name(cond.cell), went ? "went out of view" : "is not seen",
-                       number(cf, limit), number(limit, cf), for_lost && !wanted ? ", but must not" : "");
+    const std::string text = fmt::format("`{}` {}, at {}", name(cond.cell), went ? "went out of view" : "is not seen", number(cf, limit));
+    if (wanted && !for_lost) return text + ", needs above " + number(limit, cf);
+    return fmt::format("{} (seen above {}){}", text, number(limit, cf), for_lost && !wanted ? ", but must not" : "");
   }
 
   [[nodiscard]] std::string timer(CondId id, bool wanted) const {
@@ -119,9 +121,8 @@ class Explainer {
     const Cond& cond = program_[id];
     const bool conjunction = cond.op == Cond::Op::kAnd, good = holds(id) == wanted;
     if (cond.children.empty()) return conjunction ? "always" : "there is nothing to choose from";
-    if (!conjunction && !holds(id) && cond.children.size() > kFewAlternatives) {
-      return fmt::format("none of {} alternatives holds, neither {} nor ...", cond.children.size(),
-                         words(cond.children.front()));
+    if (detail_ == Detail::kBrief && !conjunction && !holds(id) && cond.children.size() > kFewAlternatives) {
+      return fmt::format("none of {} alternatives holds, neither {} nor ... (`--all` spells them out)", cond.children.size(), words(cond.children.front()));
     }
     return conjunction == wanted ? every(cond, good, wanted) : some(cond, good, wanted);
   }
@@ -156,6 +157,7 @@ class Explainer {
 
   const Program& program_;
   const Record& record_;
+  Detail detail_;
   const LevelRecord& level_;
   float firing_;
 };
@@ -257,17 +259,17 @@ CellId attending(const Program& program, const Record& record, CellId fact) {
   return high == satellites.end() ? CellId::kNone : *high;
 }
 
-Reason explain_condition(const Program& program, const Record& record, std::uint32_t level, CondId condition) {
-  const Explainer explainer(program, record, level);
+Reason explain_condition(const Program& program, const Record& record, std::uint32_t level, CondId condition, Detail detail) {
+  const Explainer explainer(program, record, level, detail);
   return {print_condition(program, condition), explainer.explain(condition, true), explainer.holds(condition)};
 }
 
-RuleStory explain_rule(const Program& program, const Record& record, RuleId rule) {
+RuleStory explain_rule(const Program& program, const Record& record, RuleId rule, Detail detail) {
   RuleStory story;
   story.rule = rule;
   story.outcome = outcome_of(program, record, rule);
   for (const CondId part : conjuncts(program, program[rule].condition)) {
-    story.reasons.push_back(explain_condition(program, record, program[rule].level, part));
+    story.reasons.push_back(explain_condition(program, record, program[rule].level, part, detail));
   }
   story.text = rule_text(program, record, story);
   return story;
@@ -299,14 +301,14 @@ CellStory explain_cell(const Program& program, const Record& record, CellId cell
   return story;
 }
 
-StrategyStory explain_strategy(const Program& program, const Record& record, CellId strategy) {
+StrategyStory explain_strategy(const Program& program, const Record& record, CellId strategy, Detail detail) {
   StrategyStory story;
   story.strategy = strategy;
   story.dispatched = record.tick.strategy == strategy;
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];
     const bool runs_it = rule.writes.size() == 1 && rule.writes[0].cell == strategy;   // no other rule writes a strategy
-    if (runs_it) story.rule = explain_rule(program, record, RuleId{i});
+    if (runs_it) story.rule = explain_rule(program, record, RuleId{i}, detail);
   }
   story.text = fmt::format("`{}` {} at tick {}: {}", program[strategy].name, story.dispatched ? "ran" : "did not run",
                            record.tick.number, strategy_text(program, record, story));

@@ -87,9 +87,11 @@ struct Reason {
   std::string text;
   bool holds = false;
 };
-/// Why a condition of a rule of `level` held or not. Alternatives (`or`) are listed one by one if they are few.
+/// How much is told of an `or` with many alternatives.
+enum class Detail : std::uint8_t { kBrief, kAll };
+/// Why a condition of a rule of `level` held or not. Alternatives (`or`) are listed one by one if they are few, or all are asked for.
 [[nodiscard]] Reason explain_condition(const Program& program, const Record& record, std::uint32_t level,
-                                       CondId condition);
+                                       CondId condition, Detail detail = Detail::kBrief);
 
 enum class Outcome : std::uint8_t {
   kFired,
@@ -104,7 +106,7 @@ struct RuleStory {
   std::string text;             ///< one sentence with the decisive reasons
   std::vector<Reason> reasons;  ///< every conjunct of its condition, in order
 };
-[[nodiscard]] RuleStory explain_rule(const Program& program, const Record& record, RuleId rule);
+[[nodiscard]] RuleStory explain_rule(const Program& program, const Record& record, RuleId rule, Detail detail = Detail::kBrief);
 
 struct CellStory {
   CellId cell = CellId::kNone;
@@ -120,6 +122,6 @@ struct StrategyStory {
   std::string text;
   RuleStory rule;  ///< its `run[...]`
 };
-[[nodiscard]] StrategyStory explain_strategy(const Program& program, const Record& record, CellId strategy);
+[[nodiscard]] StrategyStory explain_strategy(const Program& program, const Record& record, CellId strategy, Detail detail = Detail::kBrief);
 
 }  // namespace kb::program

@@ -94,8 +94,7 @@ std::string print_kinds(const std::vector<Row>& rows, const Combinations& set) {
   if (set.size() > 1) return out;   // a table for each combination would be too many to help anybody
   for (const Row& way : ways_of(rows)) {
     if (way.method == "programmed" || way.method == "bug2") continue;
-    const std::string whose = way.method == "mts" ? "the knowledge base" : "`" + way.method + "`";
-    out += fmt::format("\nOf {}'s runs, those in which one thing alone went wrong:\n\n{}", whose, kinds_of(rows, way));
+    out += fmt::format("\nOf `{}`'s runs, those in which one thing alone went wrong:\n\n{}", way.method, kinds_of(rows, way));
   }
   return out;
 }

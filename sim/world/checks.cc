@@ -45,8 +45,9 @@ bool check_pair(const Labyrinth& labyrinth, const Road& a, const Road& b, const 
     }
   }
   if (near_m >= (crosses ? 0.5 * labyrinth.widths.line_m : least_m)) return true;
-  diagnostics.report(Kind::kSimRoadsNear, b.span, {a.name, b.name, fmt::format("{:.2f}", near_m), fmt::format("{:.2f}", labyrinth.size * kRoadWidth)})
-      .note(Kind::kSimOtherHere, a.span);
+  const std::string other = same ? "itself" : fmt::format("`{}`", a.name);
+  auto message = diagnostics.report(Kind::kSimRoadsNear, b.span, {b.name, fmt::format("{:.2f}", near_m), other, fmt::format("{:.2f}", labyrinth.size * kRoadWidth)});
+  if (!same) message.note(Kind::kSimOtherHere, a.span);
   return false;
 }
 

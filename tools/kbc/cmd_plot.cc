@@ -50,7 +50,7 @@ bool set_place(const fuzzy::Controller& c, const std::string& text, emit::FuzzyP
     if (axis) diagnostics.report(Kind::kPlotAxis, {}, {fuzzy::slot_name(c, *slot)});
     return !axis;
   }
-  diagnostics.report(Kind::kPlotNothing, {}, {fmt::format("{} {:g}..{:g}", input.name, input.low, input.high), "value", text.substr(equal + 1)});
+  diagnostics.report(Kind::kPlotOutside, {}, {fuzzy::slot_name(c, *slot), fmt::format("{:g}", input.low), fmt::format("{:g}", input.high), text.substr(equal + 1)});
   return false;
 }
 

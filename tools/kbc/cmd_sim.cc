@@ -16,6 +16,7 @@
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/drive_log.h"
 #include "tools/kbc/drive_verdict.h"
+#include "tools/kbc/expected_ending.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/live_drive.h"
 #include "tools/kbc/named_files.h"
@@ -152,6 +153,7 @@ int run(const SimOptions& options, Session& session) {
   if (!set) return kErrors;
   auto scene = ground->scene(options.scenario, *set, session, messages, options.driver ? sim::MissionsBy::kDriver : sim::MissionsBy::kRoutes);
   if (!scene) return kErrors;
+  if (options.expect && !can_be_expected(*options.expect, *scene->labyrinth, *ground->knowledge, options.driver.has_value(), messages)) return kErrors;
   if (options.seed) scene->scenario.seed = *options.seed;
   for (const std::string& report : {options.summary, options.facts, options.html, options.svg, options.perfetto, options.csv}) {
     if (!session.may_write(report)) return kErrors;

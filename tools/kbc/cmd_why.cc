@@ -33,11 +33,17 @@ struct WhyOptions {
   [[nodiscard]] const std::string& asked() const { return !rule.empty() ? rule : !cell.empty() ? cell : strategy; }
 };
 
+// What to do about a group or a pattern: each answer is about one.
+std::string name_one(const std::vector<std::string_view>& members) {
+  return members.size() < 2 ? std::string() : fmt::format("; name one of its {}: {}", members.size(), diagnostics::listed(members, 8));
+}
+
 // The question with the program's ids; nothing (reported) if a name in it is unknown.
 std::optional<trace::Question> understand(const WhyOptions& options, const program::Program& program,
                                           diagnostics::Diagnostics& diagnostics) {
   const trace::CellNames names(program);
   trace::Question question;
+  if (options.all) question.detail = program::Detail::kAll;
   if (!options.rule.empty()) {
     question.rules = trace::find_rules(program, options.rule);
     if (!question.rules.empty()) return question;
@@ -47,13 +53,15 @@ std::optional<trace::Question> understand(const WhyOptions& options, const progr
     const bool runs = cell != CellId::kNone && program[cell].kind == program::CellKind::kStrategy;
     (runs ? question.strategy : question.cell) = cell;   // of a strategy's cell there is no more to say
     if (cell != CellId::kNone) return question;
-    diagnostics.report(Kind::kWhyNoCell, {}, {options.cell}).suggest(names.closest(options.cell));
+    const auto members = names.members(options.cell);
+    diagnostics.report(Kind::kWhyNoCell, {}, {options.cell, name_one(members)}).suggest(members.size() > 1 ? std::nullopt : names.closest(options.cell));
   } else if (!options.strategy.empty()) {
     question.strategy = names.find(options.strategy);
     if (question.strategy != CellId::kNone && program[question.strategy].kind == program::CellKind::kStrategy)
       return question;
-    diagnostics.report(Kind::kWhyNoStrategy, {}, {options.strategy})
-        .suggest(names.closest(options.strategy, program::CellKind::kStrategy));
+    const auto members = names.members(options.strategy, program::CellKind::kStrategy);
+    diagnostics.report(Kind::kWhyNoStrategy, {}, {options.strategy, name_one(members)})
+        .suggest(members.size() > 1 ? std::nullopt : names.closest(options.strategy, program::CellKind::kStrategy));
   } else {
     return question;
   }
@@ -162,7 +170,7 @@ Run setup_why(CLI::App& app) {
   app.parse_complete_callback([tick, rule, cell, strategy] {
     if (tick->empty() && rule->empty() && cell->empty() && strategy->empty()) throw CLI::RequiredError("--tick, or a --rule, --cell or --strategy, which finds it,");
   });
-  app.add_flag("--all", options->all, "Spell out all rules, not only the five nearest");
+  app.add_flag("--all", options->all, "Spell out all rules and alternatives, not only the nearest");
   app.add_flag("--json", options->json, "The answer as JSON");
   return [options](Session& session) { return why(*options, session); };
 }

@@ -1,6 +1,8 @@
 #include "tools/kbc/command_line.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +18,7 @@
 #include "compiler/source/reason.h"
 #include "tools/kbc/named_files.h"
 #include "tools/kbc/run_kbc.h"
+#include "tools/kbc/usage_words.h"
 
 namespace kb::cli {
 namespace {
@@ -62,7 +65,11 @@ class Formatter final : public CLI::Formatter {
     return text;
   }
   std::string make_option_name(const CLI::Option* option, bool positional) const override {
-    return positional ? option->get_name(true) : option->get_name(false, true);
+    std::string name = positional ? option->get_name(true) : option->get_name(false, true);
+    const auto value = name.find('{');   // `--coverage{text}`: the value of a flag, which may be given with `=`
+    if (value == std::string::npos) return name;
+    const auto choices = option_choices(*option);
+    return fmt::format("{}[={}]", name.substr(0, value), choices.empty() ? "VALUE" : fmt::format("{}", fmt::join(choices, "|")));
   }
 };
 
@@ -230,7 +237,7 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return printed(line.app.exit(error));   // --help, --version
     const std::string empty = begun == nullptr ? "" : left_empty(*begun->app, words);   // being empty is why it is no duration, no number, ...
-    return usage_error(empty.empty() ? error.what() : empty, begun);
+    return usage_error(empty.empty() ? usage_words(error) : empty, begun);
   }
   for (CommandLine::Entry& entry : line.entries) {
     if (!entry.app->parsed()) continue;

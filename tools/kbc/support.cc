@@ -15,6 +15,7 @@
 #include "sim/mind/control_words.h"
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/interrupts.h"
+#include "tools/kbc/library_folder.h"
 #include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/stream.h"
 
@@ -47,18 +48,6 @@ void add_shared_options(CLI::App& app, SharedOptions& options, Shared which) {
 
 namespace {
 
-/// The library that --library names, or else $WAYMARK_LIBRARY; empty if neither does.
-std::string named_library(std::string_view option) {
-  const char* set = std::getenv("WAYMARK_LIBRARY");
-  return option.empty() && set != nullptr ? std::string(set) : std::string(option);
-}
-
-// A library that the user names must be one. The default library may be missing as long as nothing of it is imported.
-bool is_library(const std::string& folder) {
-  std::error_code ignored;
-  return std::filesystem::is_directory(std::filesystem::path(folder) / "std", ignored);
-}
-
 bool wants_color(const std::string& option) {
   if (option != "auto") return option == "always";
   const char* no_color = std::getenv("NO_COLOR");
@@ -66,14 +55,6 @@ bool wants_color(const std::string& option) {
 }
 
 }  // namespace
-
-std::string find_library(std::string_view asked) {
-  if (std::string named = named_library(asked); !named.empty()) return named;
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::filesystem::path folder = self.parent_path().parent_path() / "share" / "waymark" / "stdlib_rules";
-  return folder.string();
-}
 
 bool is_terminal(int file) {
   const char* term = std::getenv("TERM");
@@ -200,7 +181,7 @@ bool Session::is_source(std::string_view path) {
 
 bool Session::refuses(std::string_view path, diagnostics::Diagnostics messages) const {
   if (is_image_path(path)) messages.report(Kind::kImageNotSource, {}, {path});
-  else if (!named_library(options_.library).empty() && !is_library(library_)) messages.report(Kind::kLibraryNotFound, {}, {library_});
+  else if (!named_library(options_.library).empty() && !is_library(library_)) messages.report(Kind::kLibraryNotFound, {}, {library_}).suggest(library_above(library_));
   return messages.failed();
 }
 

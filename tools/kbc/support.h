@@ -35,11 +35,6 @@ struct SharedOptions {
 /// Declares the shared options that `which` asks for.
 void add_shared_options(CLI::App& app, SharedOptions& options, Shared which);
 
-/// The folder of the standard library: the one asked for, else $WAYMARK_LIBRARY, else ../share/waymark/stdlib_rules
-/// beside the program's folder. (A build folder has a link of that name to the source tree.) If there is none, the last
-/// one tried.
-[[nodiscard]] std::string find_library(std::string_view asked);
-
 class Ranks;
 
 /// How this process was started.

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "tests/unit/scratch_folder.h"
+#include "tools/kbc/library_folder.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {

@@ -101,9 +101,9 @@ TEST(Why, SaysWhenAResetSilencedTheLevel) {
 
 TEST(Why, TellsSightingsWithTheThresholdInForce) {
   EXPECT_EQ(Asked(crossing(), {{}, {{"Line", 0.6f}}}).rule_text("line"),
-            "`line` did not fire at tick 2: `Line` is not seen, at 0.60, seen above 0.75");
+            "`line` did not fire at tick 2: `Line` is not seen, at 0.60, needs above 0.75");
   EXPECT_EQ(Asked(crossing(), {{}, {{"Line", 1.0f}}, {{"Line", 0.5f}}}).rule_text("seen"),
-            "`seen` did not fire at tick 3: `Line` went out of view, at 0.50, seen above 0.50");
+            "`seen` did not fire at tick 3: `Line` went out of view, at 0.50, needs above 0.50");
   EXPECT_EQ(Asked(crossing(), {{}, {{"Line", 1.0f}}, {{"Line", 1.0f}}}).rule_text("line"),
             "`line` did not fire at tick 3: `Line` is seen, at 1.00, but it was seen before");
   EXPECT_EQ(Asked(crossing(), {{{"Line", 1.0f}}}).rule_text("line"),

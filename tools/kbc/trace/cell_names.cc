@@ -54,14 +54,22 @@ CellId CellNames::find(std::string_view name) const {
 }
 
 std::optional<std::string> CellNames::closest(std::string_view name, std::optional<program::CellKind> kind) const {
+  if (const auto among = members(name, kind); !among.empty()) return std::string(among.front());
   std::vector<std::string_view> candidates;
-  const std::string members = plain_name(name) + ".";
   for (const program::Cell& cell : program_.cells) {
-    if (kind && cell.kind != *kind) continue;
-    if (plain_name(cell.name).starts_with(members)) return std::string(cell.name);
-    candidates.push_back(cell.name);
+    if (!kind || cell.kind == *kind) candidates.push_back(cell.name);
   }
   return diagnostics::closest(name, candidates);
+}
+
+std::vector<std::string_view> CellNames::members(std::string_view name, std::optional<program::CellKind> kind) const {
+  std::vector<std::string_view> found;
+  const std::string group = plain_name(name) + ".";
+  for (const program::Cell& cell : program_.cells) {
+    if (kind && cell.kind != *kind) continue;
+    if (plain_name(cell.name).starts_with(group) || matches(name, cell.name)) found.push_back(cell.name);
+  }
+  return found;
 }
 
 std::vector<RuleId> find_rules(const program::Program& program, std::string_view name) {

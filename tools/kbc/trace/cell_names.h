@@ -25,6 +25,8 @@ class CellNames {
   /// The name nearest to `name` among the cells of one kind, or of any; of a group its first member.
   [[nodiscard]] std::optional<std::string> closest(std::string_view name,
                                                    std::optional<program::CellKind> kind = std::nullopt) const;
+  /// The cells of one kind, or of any, that a group or a pattern means; empty if it is neither.
+  [[nodiscard]] std::vector<std::string_view> members(std::string_view name, std::optional<program::CellKind> kind = std::nullopt) const;
 
  private:
   const program::Program& program_;

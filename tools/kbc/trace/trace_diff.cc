@@ -21,7 +21,13 @@ json parse(std::string_view line) {
       line, [](int depth, json::parse_event_t, json&) { return depth <= kMaxDepth; }, false);
 }
 
+/// `go`, 0.5; of a conflict "of `left`, `right` over `Turn`".
 std::string shown(const json& value) {
+  if (value.is_object() && value.contains("cell") && value.contains("rules") && value["rules"].is_array()) {
+    std::string rules;
+    for (const json& rule : value["rules"]) rules += (rules.empty() ? "" : ", ") + shown(rule);
+    return "of " + rules + " over " + shown(value["cell"]);
+  }
   if (value.is_string()) return "`" + value.get<std::string>() + "`";
   return value.is_null() ? "nothing" : value.dump(-1, ' ', false, json::error_handler_t::replace);
 }

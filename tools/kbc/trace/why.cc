@@ -14,6 +14,7 @@ namespace {
 using program::CellId;
 using program::Cond;
 using program::CondId;
+using program::Detail;
 using program::Program;
 using program::Record;
 using program::RuleId;
@@ -84,8 +85,8 @@ class Measure {
   const program::LevelRecord& level_;
 };
 
-RuleAnswer answer_rule(const Program& program, const Record& record, RuleId rule) {
-  return {program::explain_rule(program, record, rule), nearness(program, record, rule)};
+RuleAnswer answer_rule(const Program& program, const Record& record, RuleId rule, Detail detail) {
+  return {program::explain_rule(program, record, rule, detail), nearness(program, record, rule)};
 }
 
 void sort_by_nearness(std::vector<RuleAnswer>& answers) {
@@ -104,7 +105,7 @@ std::string threshold_text(const Program& program, const Record& record, CellId 
                      limits.plain, limits.attended);
 }
 
-CellAnswer answer_cell(const Program& program, const Record& record, CellId cell) {
+CellAnswer answer_cell(const Program& program, const Record& record, CellId cell, Detail detail) {
   CellAnswer out{.story = program::explain_cell(program, record, cell), .threshold = {}, .raisers = {}};
   if (program[cell].kind == program::CellKind::kFact) out.threshold = threshold_text(program, record, cell);
   if (program[cell].kind != program::CellKind::kSatellite) return out;
@@ -112,15 +113,18 @@ CellAnswer answer_cell(const Program& program, const Record& record, CellId cell
   for (const program::LevelRecord& level : record.levels) found.push_back(level.cf[index(cell)]);
   found.push_back(out.story.value);
   out.passing = levels_in_passing(found);
+  if (record.last_write[index(cell)].tick == record.tick.number) {
+    for (const RuleId rule : out.story.rules) out.writers.push_back(answer_rule(program, record, rule, detail));
+  }
   if (out.story.value >= firing(program)) return out;
-  for (const RuleId rule : raisers(program, cell, out.story.value)) out.raisers.push_back(answer_rule(program, record, rule));
+  for (const RuleId rule : raisers(program, cell, out.story.value)) out.raisers.push_back(answer_rule(program, record, rule, detail));
   sort_by_nearness(out.raisers);
   out.lacks_raiser = out.raisers.empty();
   return out;
 }
 
-StrategyAnswer answer_strategy(const Program& program, const Record& record, CellId strategy) {
-  StrategyAnswer out{.story = program::explain_strategy(program, record, strategy), .before = {}};
+StrategyAnswer answer_strategy(const Program& program, const Record& record, CellId strategy, Detail detail) {
+  StrategyAnswer out{.story = program::explain_strategy(program, record, strategy, detail), .before = {}};
   const std::vector<float>& cf = record.levels.back().cf;
   for (const CellId other : program.priority) {
     if (other == strategy) break;
@@ -161,19 +165,19 @@ Nearness nearness(const Program& program, const Record& record, RuleId rule) {
 
 Answer answer(const Program& program, const Record& record, const Question& question) {
   Answer out;
-  for (const RuleId rule : question.rules) out.rules.push_back(answer_rule(program, record, rule));
+  for (const RuleId rule : question.rules) out.rules.push_back(answer_rule(program, record, rule, question.detail));
   sort_by_nearness(out.rules);
-  if (question.cell != CellId::kNone) out.cells.push_back(answer_cell(program, record, question.cell));
+  if (question.cell != CellId::kNone) out.cells.push_back(answer_cell(program, record, question.cell, question.detail));
   if (question.strategy != CellId::kNone) {
-    out.strategy = answer_strategy(program, record, question.strategy);
-    for (const CellId satellite : program[question.strategy].satellites) out.cells.push_back(answer_cell(program, record, satellite));
+    out.strategy = answer_strategy(program, record, question.strategy, question.detail);
+    for (const CellId satellite : program[question.strategy].satellites) out.cells.push_back(answer_cell(program, record, satellite, question.detail));
     const auto wants_it = [&](const CellAnswer& cell) { return cell.story.value >= firing(program); };
     std::stable_partition(out.cells.begin(), out.cells.end(), wants_it);
   }
   if (!question.rules.empty() || question.cell != CellId::kNone || question.strategy != CellId::kNone) return out;
   out.of_whole_tick = true;
-  for (const RuleId rule : record.tick.fired) out.rules.push_back(answer_rule(program, record, rule));
-  if (record.tick.strategy != CellId::kNone) out.strategy = answer_strategy(program, record, record.tick.strategy);
+  for (const RuleId rule : record.tick.fired) out.rules.push_back(answer_rule(program, record, rule, question.detail));
+  if (record.tick.strategy != CellId::kNone) out.strategy = answer_strategy(program, record, record.tick.strategy, question.detail);
   return out;
 }
 

@@ -39,6 +39,7 @@ struct Question {
   std::vector<program::RuleId> rules{};
   program::CellId cell = program::CellId::kNone;
   program::CellId strategy = program::CellId::kNone;
+  program::Detail detail = program::Detail::kBrief;
 };
 
 struct RuleAnswer {
@@ -54,6 +55,7 @@ struct CellAnswer {
   std::string threshold;            ///< for a fact: the threshold that it had to pass to be seen, and why
   std::vector<std::uint32_t> passing{};   ///< of a satellite: see levels_in_passing
   bool lacks_raiser = false;        ///< a satellite that is not high, and no rule raises it above its value
+  std::vector<RuleAnswer> writers{};   ///< of a satellite: the rules that wrote it last, if that was on this tick
   std::vector<RuleAnswer> raisers;  ///< a satellite that is not high: the rules that would raise it, the nearest first
 };
 

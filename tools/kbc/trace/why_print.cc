@@ -64,6 +64,7 @@ ordered_json json_cell(const Program& program, const Record& record, const CellA
   if (!answer.threshold.empty()) out["threshold"] = answer.threshold;
   for (const std::uint32_t level : answer.passing)
     out["passing"].push_back({{"level", program.levels[level]}, {"value", json_number(record.levels[level].cf[index(answer.story.cell)])}});
+  if (!answer.writers.empty()) out["writers"] = json_rules(program, record, answer.writers);
   out["raisers"] = json_rules(program, record, answer.raisers);
   out["text"] = answer.story.text;
   return out;
@@ -101,6 +102,9 @@ void print_cell(const Program& program, const Record& record, const CellAnswer& 
   for (const std::uint32_t level : cell.passing) {
     out += fmt::format("  within this tick: the rules of level `{}` found it at {:.2f}\n", program.levels[level], record.levels[level].cf[index(cell.story.cell)]);
   }
+  print_rules(program, cell.writers, most, "    ", out);
+  if (const std::uint64_t written = record.last_write[index(cell.story.cell)].tick; !cell.story.rules.empty() && cell.writers.empty())
+    out += fmt::format("  `--tick {}` tells why\n", written);
   if (cell.lacks_raiser) out += cell.story.value > -1.0f ? "  no rule raises it any higher\n" : "  no rule raises it\n";
   if (cell.raisers.empty()) return;
   const bool passing = !cell.passing.empty();

@@ -1,0 +1,84 @@
+#include "tools/kbc/expected_ending.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/display.h"
+
+namespace kb::cli {
+namespace {
+
+using diagnostics::Kind;
+
+constexpr std::string_view kEndingForms =
+    "a drive ends as `arrived`, `arrived at LANDMARK`, `stopped: REPORT`, `gave up on the way to LANDMARK`, `believes to be at LANDMARK, and is not`, `aborted`, "
+    "`stands without saying why`, `still driving when the time was up` or `never started`";
+constexpr std::string_view kWithReports[] = {"stopped: ", "still driving when the time was up: "};
+constexpr std::string_view kWithLandmark[] = {"arrived at ", "gave up on the way to ", "believes to be at "};
+
+std::vector<std::string> reports_of(const sim::Knowledge& knowledge) {
+  std::vector<std::string> reports{"Help.power"};   // of the host, see Drive::reports
+  for (const program::CellId report : knowledge.reports) reports.emplace_back(knowledge.program->cells[program::index(report)].name);
+  return reports;
+}
+
+/// All that sim::describe may say, each report alone; the short ones first, since of several equally near names the first is suggested.
+std::vector<std::string> endings(const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge) {
+  std::vector<std::string> all{"arrived", "aborted", "stands without saying why", "still driving when the time was up", "never started"};
+  for (const auto& crossing : labyrinth.crossings) {
+    for (const std::string_view words : kWithLandmark) all.push_back(fmt::format("{}{}", words, crossing.name));
+    all.back() += ", and is not";
+  }
+  for (const std::string& report : reports_of(knowledge)) {
+    for (const std::string_view words : kWithReports) all.push_back(fmt::format("{}{}", words, report));
+  }
+  for (const auto& strategy : knowledge.strategies) all.push_back(fmt::format("stands without saying why, while `{}` runs", strategy.name));
+  return all;
+}
+
+/// Whether the ending begins with these words: as `compare` of drive_verdict.h sees it.
+bool begins(std::string_view ending, std::string_view words) {
+  return !words.empty() && ending.starts_with(words) && (ending.size() == words.size() || ending[words.size()] == ' ');
+}
+
+/// The first of several reports that is not known; empty if all are.
+std::string unknown_report(std::string_view reports, const std::vector<std::string>& known) {
+  while (true) {
+    const std::size_t end = std::min(reports.find(", "), reports.size());
+    const std::string_view one = reports.substr(0, end);
+    if (std::find(known.begin(), known.end(), one) == known.end()) return std::string(one);
+    if (end == reports.size()) return {};
+    reports.remove_prefix(end + 2);
+  }
+}
+
+}  // namespace
+
+bool can_be_expected(const std::string& expected, const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge, bool any_report,
+                     diagnostics::Diagnostics& messages) {
+  const auto refuse = [&](const std::string& why, const std::string& word, const std::vector<std::string>& known) {
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    messages.report(Kind::kFleetExpect, {}, {expected, why}).suggest(diagnostics::closest(word, names));
+    return false;
+  };
+  for (const std::string_view words : kWithReports) {
+    if (!expected.starts_with(words)) continue;
+    const std::vector<std::string> known = reports_of(knowledge);
+    const std::string unknown = unknown_report(std::string_view(expected).substr(words.size()), known);
+    return any_report || unknown.empty() || refuse(fmt::format("nothing reports {}", diagnostics::quoted_code(unknown)), unknown, known);
+  }
+  const std::vector<std::string> all = endings(labyrinth, knowledge);
+  if (std::any_of(all.begin(), all.end(), [&](const std::string& one) { return begins(one, expected); })) return true;
+  std::string why(kEndingForms);
+  for (const std::string_view words : kWithLandmark) {
+    if (!expected.starts_with(words)) continue;
+    const std::string landmark = expected.substr(words.size(), expected.find(',') - words.size());
+    if (!labyrinth.by_name.contains(landmark)) why = fmt::format("there is no landmark {}", diagnostics::quoted_code(landmark));
+  }
+  return refuse(why, expected, all);
+}
+
+}  // namespace kb::cli
