@@ -11,10 +11,12 @@
 //
 // note [what a strategy begins with]
 // A controller starts where its strategy begins to run. A manoeuvre that was interrupted (the robot stood, or went round something) is continued: it
-// reckons meanwhile, but does not look at the line, over which another controller may turn the robot. It is forgotten when the leg
-// changes. A road begins where a controller follows on a manoeuvre: until then the robot is on the road before, even if the leg has
-// changed, as it does where a sign is read. So what begins in the middle of a road, after something in the way, is told the rest of
-// it, and a robot that has come about is told the way back, if the leg leads there.
+// reckons meanwhile, but does not look at the line, over which another controller may turn the robot. So is a way round something that
+// a halt interrupted. Both are forgotten where the leg changes, and where a controller follows a road again: the manoeuvre after 30 cm, since
+// strategies may waver.
+// A road begins where a controller follows on a manoeuvre: until then the robot is on the road before, even if the leg has changed, as it
+// does where a sign is read. So what begins in the middle of a road is told the rest of it, and a robot that has come about is told the
+// way back, if the leg leads there.
 #pragma once
 
 #include "../runtime/control_line.h"
@@ -26,7 +28,7 @@
 
 namespace mts {
 
-/// Takes at most 15,000 bytes, no heap; on a small microcontroller use the controllers themselves. One object belongs to one thread at a time; it
+/// Takes at most 15,000 bytes, no heap, and up to 4 KB of stack; on a small microcontroller use the controllers themselves. One object belongs to one thread at a time; it
 /// may be copied.
 class Pilot {
  public:
@@ -35,7 +37,7 @@ class Pilot {
 
   /// Whether it can drive by this line. kUnknown: there is no such controller, or it has no such parameter; kOutside: no body of this size can
   /// have that value, the word is none of the parameter's, or the unit is another. To be asked of each strategy before the robot drives.
-  /// Needs 6 KB of stack.
+  /// Needs 7 KB of stack.
   [[nodiscard]] Setting fits(const ControlLine& line) const noexcept {
     AnyController trial;
     return bind(trial, line);
@@ -43,12 +45,12 @@ class Pilot {
 
   /// What the mind has decided: to be called after each of its ticks. `line`: null if nothing drives; one that does not fit lets the robot stand,
   /// and `drives` says so. `road`: of the present leg; null if unknown. `limit_m_s`: besides the limits of the roads, for instance what
-  /// `speed_limit_m_per_s(mind)` says, which knows the lowest of all roads while none is known.
+  /// `speed_limit_m_per_s(mind)` says, which knows the lowest of all roads while none is known; NaN and below 0 are 0.
   void choose(const ControlLine* line, const MapRoad* road = nullptr, float limit_m_s = kInfinity) noexcept {
     if (road != roads_.road()) suspended_line_ = nullptr, changed_ = true;
     roads_.follow(road);
     line_ = line;
-    limit_m_s_ = limit_m_s;
+    limit_m_s_ = limit_m_s > 0.0f ? limit_m_s : 0.0f;
   }
 
   /// What the wheels are to do until the next period. Takes one sample of the sensors, raw and in metres of the robot; `dt_s`: see AnyController::step.
@@ -58,6 +60,7 @@ class Pilot {
     place_.step(steady, sane_period(dt));
     if (line_ != running_) begin(steady);
     else if (knows_no_more()) start(steady);
+    if (follows_ && place_.travelled_m() - followed_m_ > kForgets_m * size()) suspended_line_ = nullptr;
     if (suspended_line_ != nullptr) {
       Senses reckons = steady;
       reckons.line_known = false;
@@ -73,15 +76,22 @@ class Pilot {
   [[nodiscard]] bool lost() const noexcept { return drives() && controller_.lost(); }
   [[nodiscard]] Plight plight() const noexcept { return drives() ? controller_.plight() : Plight::kNone; }
 
-  /// Where it is on its road. Programs need it if a controller of their own drives through crossings: `leave_crossing` says that it has.
+  /// Where it is on its road.
   [[nodiscard]] const OnRoad& place() const noexcept { return place_; }
-  void leave_crossing() noexcept { crossed_ = true; }
-  /// The robot was carried: it is on an unknown road, and what was interrupted is not continued. The controller that drives begins afresh.
+  /// For programs with controllers of their own: to be called once, where one of them has driven through a crossing and stands on the line out.
+  void leave_crossing() noexcept { crossed_ = left_ = true; }
+  /// For robots that begin in the middle of a road, `along_m` from the middle of the crossing where it begins. They need a compass.
+  void put(const MapRoad& road, float along_m) noexcept {
+    forget_place();
+    place_.put(road, along_m);
+  }
+  /// The robot was carried: it is on an unknown road, and what was interrupted is not continued. The controller that drives begins afresh, so
+  /// call it once.
   void forget_place() noexcept {
     roads_.forget();
-    place_ = OnRoad(as_.out(body_));
+    place_.forget();
     suspended_line_ = running_ = nullptr;
-    crossed_ = drives_ = changed_ = false;
+    crossed_ = left_ = drives_ = changed_ = follows_ = false;
     told_m_ = kInfinity;
   }
 
@@ -106,25 +116,36 @@ class Pilot {
     const Parameter* parameter = find_parameter(controller.id(), argument.name);
     if (parameter == nullptr) return Setting::kUnknown;
     const float value = as_.in(argument.number, parameter->unit);
-    const bool possible = value >= parameter->low && value <= greatest(parameter->high, highest(*parameter, body_));
+    const float rounded = 1e-6f * greatest(magnitude(parameter->low), magnitude(parameter->high));   // by the conversion of sizes
+    const bool possible = value >= parameter->low - rounded && value <= greatest(parameter->high, highest(*parameter, body_)) + rounded;
     if (!possible || (argument.unit[0] != '\0' && !same_text(argument.unit, parameter->unit)) || words_of(parameter->values).count > 0) return Setting::kOutside;
     return controller.set(argument.name, clamped(value, lowest(*parameter, body_), highest(*parameter, body_)));
   }
 
   void begin(const Senses& senses) noexcept {
-    const bool unfinished = drives_ && is_manoeuvre(controller_.id()) && !controller_.done() && !controller_.lost();
-    if (unfinished && !changed_) suspended_ = controller_, suspended_line_ = running_;
-    changed_ = false;
+    suspend();
+    changed_ = follows_ = false;
     running_ = line_;
     if (line_ != nullptr && line_ == suspended_line_) {
       controller_ = suspended_;
       suspended_line_ = nullptr;
       drives_ = true;
+      if (is_manoeuvre(controller_.id())) crossed_ = true;
       return;
     }
     drives_ = line_ != nullptr && bind(controller_, *line_) == Setting::kSet;
+    if (line_ != nullptr && !drives_) left_ = false;   // a controller of the program's own may go anywhere
     if (!drives_) return controller_.choose(Id::kStand, body_);
     start(senses);
+  }
+  /// A manoeuvre that is over is kept as well: the rules may not have noticed, and it is not to be driven again.
+  void suspend() noexcept {
+    const bool rounds = controller_.id() == Id::kRoundObstacle && suspended_line_ == nullptr && !controller_.done() && !controller_.lost();
+    if (drives_ && is_manoeuvre(controller_.id())) left_ = left_ || controller_.done() || place_.travelled_m() - entered_m_ > 0.5f * size() * body_.crossing_m;
+    else if (drives_ && controller_.id() != Id::kStand) left_ = false;
+    if (changed_ || !drives_ || !(rounds || is_manoeuvre(controller_.id()))) return;
+    suspended_ = controller_;
+    suspended_line_ = running_;
   }
   void start(const Senses& senses) noexcept {
     const Task all = task(senses);
@@ -133,33 +154,83 @@ class Pilot {
       told_m_ = place_.spot().along_m;
       for (std::size_t i = 0; i + 1 < kLongestCourse; ++i) told_m_ += all.course[i].length_m;   // on the last piece
     }
-    controller_.start(as_.in(all), senses);
+    Senses reckoned = senses;
+    if (!senses.heading_known && place_.road() != nullptr && place_.heading_known()) {
+      reckoned.heading_rad = place_.heading_rad();
+      reckoned.heading_known = true;
+    }
+    controller_.start(as_.in(all), reckoned);
   }
 
   /// In metres of the robot.
   [[nodiscard]] Task task(const Senses& senses) noexcept {
     const Id id = controller_.id();
-    if (is_manoeuvre(id)) {
-      suspended_line_ = nullptr;
-      crossed_ = true;
-      Task across = task_across(roads_);
-      if (across.entry_known && senses.heading_known && magnitude(wrapped_angle(senses.heading_rad - across.entry_heading_rad)) > kElsewhere_rad) {
-        across.entry_known = false;   // it did not come by the road of its last leg, whatever carried it here
-      }
-      return across;
+    if (is_manoeuvre(id)) return across(senses);
+    if (id == Id::kTurnRound) return round();
+    if (id == Id::kRoundObstacle) {
+      if (crossed_ || place_.road() == nullptr || same_text(place_.road()->by, "dist")) return {};   // walls show where the road bends
+      turn_back_if_leg_does();
+      return place_.faces_back() ? Task{} : place_.task(false);
     }
-    if (id == Id::kTurnRound && place_.road() != nullptr && !crossed_) {
-      Task back;
-      back.course[back.pieces++] = {wrapped_angle(place_.spot().heading_rad + kPi), 1.0f};
-      return back;
-    }
-    if (id == Id::kRoundObstacle) return crossed_ || (place_.road() != nullptr && same_text(place_.road()->by, "dist")) ? Task{} : place_.task(false);   // walls show where the road bends
     if (!follows(id)) return {};
+    follow_road(senses);
+    if (place_.faces_back() || place_.road() == nullptr) return {};
+    if (id == Id::kHoldHeading) shorten_overrun();
+    return place_.task(id == Id::kHoldHeading);
+  }
+  [[nodiscard]] Task across(const Senses& senses) noexcept {
+    suspended_line_ = nullptr;
+    crossed_ = true;
+    left_ = false;
+    entered_m_ = place_.travelled_m();
+    Task across = task_across(roads_);
+    if (across.entry_known && senses.heading_known && magnitude(wrapped_angle(senses.heading_rad - across.entry_heading_rad)) > kElsewhere_rad) {
+      across.entry_known = false;   // it did not come by the road of its last leg, whatever carried it here
+    }
+    place_.enter_crossing(across.entry_known ? across.entry_heading_rad : place_.heading_rad());
+    return across;
+  }
+  /// To face back along the road, or along it if the robot faces back already; near a bend, and if the line gives another angle, by the angle.
+  [[nodiscard]] Task round() const noexcept {
+    Task task;
+    if (crossed_ || !(place_.faces_along() || place_.faces_back())) return task;
+    for (std::uint32_t i = 0; i < running_->count; ++i) {
+      if (same_text(running_->arguments[i].name, "angle") && running_->arguments[i].number != 180.0f) return task;
+    }
+    task.course[task.pieces++] = {wrapped_angle(place_.spot().heading_rad + (place_.faces_back() ? 0.0f : kPi)), 1.0f};
+    return task;
+  }
+  void follow_road(const Senses& senses) noexcept {
+    const bool manoeuvre = suspended_line_ != nullptr && is_manoeuvre(suspended_.id());
+    const bool went_through = left_ || !manoeuvre || place_.travelled_m() - entered_m_ > 0.5f * size() * body_.crossing_m;   // otherwise a strategy wavers
     const MapRoad* road = roads_.road();
-    if (crossed_) place_.enter(road, senses);
-    else if (place_.faces_back() && road != nullptr && is_way_back(*road, *place_.road())) place_.turn_back(*road);
-    crossed_ = false;
-    return place_.faces_back() ? Task{} : place_.task(id == Id::kHoldHeading);
+    if (crossed_ && went_through) {
+      const bool knows_frame = senses.heading_known || place_.road() != nullptr;
+      if (left_ || road == nullptr || !knows_frame) place_.enter(road, senses);
+      else place_.enter_aside(*road);
+      entered_m_ = -kInfinity;   // it is through
+    } else {
+      turn_back_if_leg_does();
+    }
+    if (suspended_line_ != nullptr && !manoeuvre) suspended_line_ = nullptr;
+    crossed_ = left_ = false;
+    follows_ = true;
+    followed_m_ = place_.travelled_m();
+  }
+  void turn_back_if_leg_does() noexcept {
+    const MapRoad* road = roads_.road();
+    if (place_.faces_back() && road != nullptr && is_way_back(*road, *place_.road())) place_.turn_back(*road);
+  }
+  /// By as much as the robot is past the end of its road already: each start has a whole one.
+  void shorten_overrun() noexcept {
+    const OnRoad::Spot here = place_.spot();
+    const float past_m = as_.in(here.along_m - end_of_course_m(*place_.road(), as_.out(body_)) + here.past_m, "m");
+    if (!(past_m > 0.0f)) return;
+    float overrun_m = find_parameter(Id::kHoldHeading, "overrun")->preset;
+    for (std::uint32_t i = 0; i < running_->count; ++i) {
+      if (same_text(running_->arguments[i].name, "overrun")) overrun_m = as_.in(running_->arguments[i].number, "m");
+    }
+    static_cast<void>(controller_.set("overrun", greatest(overrun_m - past_m, 0.0f)));
   }
 
   [[nodiscard]] float limit_m_s() const noexcept {
@@ -173,7 +244,9 @@ class Pilot {
   /// Whether the controller comes to the end of what it was told of a road with more bends than a task has room for.
   [[nodiscard]] bool knows_no_more() const noexcept { return place_.road() != nullptr && told_m_ < kInfinity && place_.spot().along_m > told_m_; }
 
-  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg;
+  [[nodiscard]] float size() const noexcept { return as_.out(1.0f, "m"); }
+
+  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f;
 
   Similarity as_;
   Body body_;                                 // of size 1, as the controllers know it
@@ -186,7 +259,10 @@ class Pilot {
   float limit_m_s_ = kInfinity;
   float told_m_ = kInfinity;                  // how far along its road the robot gets without being told more
   bool drives_ = false;
+  float entered_m_ = 0.0f, followed_m_ = 0.0f;   // what it had travelled when the last manoeuvre began, and when it last began to follow a road
+  bool follows_ = false;                      // the controller follows a road
   bool crossed_ = false;                      // a manoeuvre has run since the robot last followed a road
+  bool left_ = false;                         // and nothing has moved the robot since it ended
   bool changed_ = false;                      // the leg has, since the controller began
 };
 static_assert(sizeof(Pilot) <= 15000);

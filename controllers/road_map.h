@@ -78,7 +78,7 @@ class RoadsDriven {
     const float part_m = greatest(least(passed_m + piece.length_m, to_m) - greatest(passed_m, from_m), 0.0f);
     way.x_m += part_m * cosine(piece.heading_rad);
     way.y_m += part_m * sine(piece.heading_rad);
-    if (i == 0 || part_m > 0.0f) way.heading_rad = piece.heading_rad;
+    if (i == 0 || passed_m < to_m) way.heading_rad = piece.heading_rad;
     passed_m += piece.length_m;
   }
   return way;
