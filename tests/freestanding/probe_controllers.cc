@@ -1,6 +1,5 @@
 // Uses every controller, so that all of them are compiled without a standard library.
 #include <waymark/controllers/any_controller.h>
-#include <waymark/controllers/pilot.h>
 #include <waymark/controllers/road_map.h>
 #include <waymark/controllers/similarity.h>
 #include <waymark/controllers/steady_ranges.h>
@@ -9,7 +8,13 @@ namespace {
 
 mts::AnyController controller;
 mts::SteadyRanges steady;
-mts::Pilot pilot;
+
+[[gnu::noinline]] mts::Task along(const mts::Piece* course, std::uint16_t pieces, const char* by, float limit_m_s) {
+  mts::RoadsDriven roads;
+  const mts::MapRoad road{"", "", "", "", by, limit_m_s, course, pieces};
+  roads.follow(&road);
+  return mts::task_along(roads, {});
+}
 
 }  // namespace
 
@@ -22,15 +27,7 @@ extern "C" int freestanding_probe_controllers(const mts::Senses* senses, const m
   if (side != nullptr) static_cast<void>(controller.set("side", mts::number_of_word(*side, "left")));
   const mts::Setting setting = controller.set("speed", value);
   const mts::Senses small = as.in(*senses);
-  mts::RoadsDriven roads;
-  const mts::MapRoad road{"", "", "", "", name, value, task->course, task->pieces};
-  roads.follow(&road);
-  controller.start(as.in(value > 1.0f ? *task : mts::task_along(roads, {})), small);
-  const mts::ControlArgument argument{"speed", "", value, "m/s"};
-  const mts::ControlLine line{name, &argument, 1};
-  pilot.choose(&line, &road);
-  pilot.forget_place();
-  const mts::Motion piloted = pilot.step(*senses, 0.01f);
+  controller.start(as.in(value > 1.0f ? *task : along(task->course, task->pieces, name, value)), small);
   const mts::Motion motion = as.out(controller.step(steady.step(small, 0.01f), as.in(0.01f, "s")));
-  return static_cast<int>(motion.speed_m_s + motion.turn_rad_s + piloted.speed_m_s) + pilot.done() + static_cast<int>(setting) + (controller.done() || controller.lost());
+  return static_cast<int>(motion.speed_m_s + motion.turn_rad_s) + static_cast<int>(setting) + (controller.done() || controller.lost());
 }
