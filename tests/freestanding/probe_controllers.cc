@@ -9,9 +9,11 @@ namespace {
 mts::AnyController controller;
 mts::SteadyRanges steady;
 
-[[gnu::noinline]] mts::Task along(const mts::Piece* course, std::uint16_t pieces, const char* by, float limit_m_s) {
+[[gnu::noinline]] void start(const mts::Similarity& as, const mts::Task& task, const mts::Senses& small) { controller.start(as.in(task), small); }
+
+[[gnu::noinline]] mts::Task along(const mts::Task& task, const char* by, float limit_m_s) {
   mts::RoadsDriven roads;
-  const mts::MapRoad road{"", "", "", "", by, limit_m_s, course, pieces};
+  const mts::MapRoad road{"", "", "", "", by, limit_m_s, task.course, task.pieces};
   roads.follow(&road);
   return mts::task_along(roads, {});
 }
@@ -27,7 +29,7 @@ extern "C" int freestanding_probe_controllers(const mts::Senses* senses, const m
   if (side != nullptr) static_cast<void>(controller.set("side", mts::number_of_word(*side, "left")));
   const mts::Setting setting = controller.set("speed", value);
   const mts::Senses small = as.in(*senses);
-  controller.start(as.in(value > 1.0f ? *task : along(task->course, task->pieces, name, value)), small);
+  start(as, value > 1.0f ? *task : along(*task, name, value), small);
   const mts::Motion motion = as.out(controller.step(steady.step(small, 0.01f), as.in(0.01f, "s")));
   return static_cast<int>(motion.speed_m_s + motion.turn_rad_s) + static_cast<int>(setting) + (controller.done() || controller.lost());
 }
