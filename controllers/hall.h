@@ -39,8 +39,6 @@ class Hall {
     const Place in = along(in_);
     phase_ = in.x_m < body_.hall_door_m + kIn_m && magnitude(in.y_m) < kOnAxis_m ? Phase::kIn : Phase::kAcross;
     const float behind = body_.hall_door_m + kIn_m + 0.08f;
-    const Place out = along(out_);
-    if (known_ && phase_ == Phase::kAcross && out.x_m > -behind && magnitude(out.y_m) < kOnAxis_m) phase_ = Phase::kOut;   // it was halted in the door out
     gate_ = {out_.x_m - behind * cosine(out_.heading_rad), out_.y_m - behind * sine(out_.heading_rad), out_.heading_rad};
     best_m_ = to_gate();
   }

@@ -11,9 +11,9 @@
 //
 // note [what a strategy begins with]
 // A controller starts where its strategy begins to run. A manoeuvre that was interrupted (the robot stood, or went round something) is continued: it
-// reckons meanwhile, but does not look at the line, over which another controller may turn the robot. So is a way round something that
-// a halt interrupted. Both are forgotten where the leg changes, and where a controller follows a road again: the manoeuvre after 30 cm, since
-// strategies may waver.
+// reckons meanwhile, but does not look at the line, over which another controller may turn the robot. So is a way round something or through a
+// hall that a halt interrupted. All are forgotten where the leg changes, and where another controller follows a road: the manoeuvre after 30 cm,
+// since strategies may waver.
 // A road begins where a controller follows on a manoeuvre: until then the robot is on the road before, even if the leg has changed, as it
 // does where a sign is read. So what begins in the middle of a road is told the rest of it, and a robot that has come about is told the
 // way back, if the leg leads there.
@@ -131,6 +131,8 @@ class Pilot {
       suspended_line_ = nullptr;
       drives_ = true;
       if (is_manoeuvre(controller_.id())) crossed_ = true;
+      follows_ = follows(controller_.id());
+      followed_m_ = place_.travelled_m();
       return;
     }
     drives_ = line_ != nullptr && bind(controller_, *line_) == Setting::kSet;
@@ -140,10 +142,11 @@ class Pilot {
   }
   /// A manoeuvre that is over is kept as well: the rules may not have noticed, and it is not to be driven again.
   void suspend() noexcept {
-    const bool rounds = controller_.id() == Id::kRoundObstacle && suspended_line_ == nullptr && !controller_.done() && !controller_.lost();
+    const bool in_hall = follows_ && place_.road() != nullptr && crosses_hall(*place_.road());
+    const bool on_its_way = (controller_.id() == Id::kRoundObstacle || in_hall) && suspended_line_ == nullptr && !controller_.done() && !controller_.lost();
     if (drives_ && is_manoeuvre(controller_.id())) left_ = left_ || controller_.done() || place_.travelled_m() - entered_m_ > 0.5f * size() * body_.crossing_m;
     else if (drives_ && controller_.id() != Id::kStand) left_ = false;
-    if (changed_ || !drives_ || !(rounds || is_manoeuvre(controller_.id()))) return;
+    if (changed_ || !drives_ || !(on_its_way || is_manoeuvre(controller_.id()))) return;
     suspended_ = controller_;
     suspended_line_ = running_;
   }
@@ -252,7 +255,7 @@ class Pilot {
   Body body_;                                 // of size 1, as the controllers know it
   Host host_;
   SteadyRanges steady_;
-  AnyController controller_, suspended_;      // the second: an interrupted manoeuvre, if `suspended_line_` is one
+  AnyController controller_, suspended_;      // the second: what was interrupted and is to be continued, if `suspended_line_` is not null
   const ControlLine *line_ = nullptr, *running_ = nullptr, *suspended_line_ = nullptr;
   RoadsDriven roads_;
   OnRoad place_;

@@ -274,18 +274,22 @@ TEST(Pilot, HaltsDoNotLeadPastTheEndOfARoad) {
   EXPECT_LT(trip.robot.x, 3.0 - 0.35 + 0.6 + 0.25 + 30 * 0.01) << "the line in, which is missing here, `overrun`, braking, and a centimetre each time";
 }
 
-TEST(Pilot, ARobotInTheDoorOutOfAHallDrivesOut) {
+TEST(Pilot, ARobotThatHaltsInTheDoorOutOfAHallDrivesOut) {
   constexpr ControlLine straight = {"bug", nullptr, 0};
   static constexpr Piece kLong[] = {{0.0f, 6.0f}};
   constexpr MapRoad hall = {"Arch", "E", "Shelf", "W", "open", kInfinity, kLong, 1};
-  for (const float halt_m : {4.9f, 5.3f, 5.5f}) {
+  for (const double halt_m : {2.0, 4.9, 5.3, 5.5}) {
     plant::Floor floor;
     floor.add_walls({{0.3, -0.3}, {0.85, -0.3}, {0.85, -2.0}, {5.15, -2.0}, {5.15, -0.3}, {5.7, -0.3}});
     floor.add_walls({{0.3, 0.3}, {0.85, 0.3}, {0.85, 2.0}, {5.15, 2.0}, {5.15, 0.3}, {5.7, 0.3}});
-    Trip trip(halt_m, floor);
-    trip.pilot.put(hall, halt_m);
+    Trip trip(0.26, floor);
+    trip.pilot.leave_crossing();
     trip.pilot.choose(&straight, &hall);
-    trip.drive(8.0);
+    for (int i = 0; i < 3000 && trip.robot.x < halt_m; ++i) trip.drive(0.02);
+    trip.pilot.choose(&kStop, &hall);
+    trip.drive(1.0);
+    trip.pilot.choose(&straight, &hall);
+    trip.drive(20.0);
     EXPECT_GT(trip.robot.x, 5.6) << halt_m;
     EXPECT_NEAR(trip.robot.y, 0.0, 0.1) << halt_m;
   }
