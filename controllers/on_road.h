@@ -122,7 +122,7 @@ class OnRoad {
     const Task rest = task_along(*road_, body_, driven_m + ahead_m);
     task.pieces = 0;
     task.course[task.pieces++] = {angle_of(x_m, y_m), square_root(x_m * x_m + y_m * y_m)};
-    for (std::size_t i = 0; i < rest.pieces && task.pieces < kLongestCourse; ++i) task.course[task.pieces++] = rest.course[i];
+    for (std::size_t i = 0; i < rest.pieces && append(task, rest.course[i]); ++i) {}
     return task;
   }
 

@@ -144,7 +144,7 @@ class Pilot {
   void suspend() noexcept {
     const bool in_hall = follows_ && place_.road() != nullptr && crosses_hall(*place_.road());
     const bool on_its_way = (controller_.id() == Id::kRoundObstacle || in_hall) && suspended_line_ == nullptr && !controller_.done() && !controller_.lost();
-    if (drives_ && is_manoeuvre(controller_.id())) left_ = left_ || controller_.done() || place_.travelled_m() - entered_m_ > 0.5f * size() * body_.crossing_m;
+    if (drives_ && is_manoeuvre(controller_.id())) left_ = left_ || controller_.done() || past_middle();
     else if (drives_ && controller_.id() != Id::kStand) left_ = false;
     if (changed_ || !drives_ || !(on_its_way || is_manoeuvre(controller_.id()))) return;
     suspended_ = controller_;
@@ -197,15 +197,14 @@ class Pilot {
   [[nodiscard]] Task round() const noexcept {
     Task task;
     if (crossed_ || !(place_.faces_along() || place_.faces_back())) return task;
-    for (std::uint32_t i = 0; i < running_->count; ++i) {
-      if (same_text(running_->arguments[i].name, "angle") && running_->arguments[i].number != 180.0f) return task;
-    }
+    const ControlArgument* angle = find_argument("angle");
+    if (angle != nullptr && angle->number != 180.0f) return task;
     task.course[task.pieces++] = {wrapped_angle(place_.spot().heading_rad + (place_.faces_back() ? 0.0f : kPi)), 1.0f};
     return task;
   }
   void follow_road(const Senses& senses) noexcept {
     const bool manoeuvre = suspended_line_ != nullptr && is_manoeuvre(suspended_.id());
-    const bool went_through = left_ || !manoeuvre || place_.travelled_m() - entered_m_ > 0.5f * size() * body_.crossing_m;   // otherwise a strategy wavers
+    const bool went_through = left_ || !manoeuvre || past_middle();   // otherwise a strategy wavers
     const MapRoad* road = roads_.road();
     if (crossed_ && went_through) {
       const bool knows_frame = senses.heading_known || place_.road() != nullptr;
@@ -229,10 +228,8 @@ class Pilot {
     const OnRoad::Spot here = place_.spot();
     const float past_m = as_.in(here.along_m - end_of_course_m(*place_.road(), as_.out(body_)) + here.past_m, "m");
     if (!(past_m > 0.0f)) return;
-    float overrun_m = find_parameter(Id::kHoldHeading, "overrun")->preset;
-    for (std::uint32_t i = 0; i < running_->count; ++i) {
-      if (same_text(running_->arguments[i].name, "overrun")) overrun_m = as_.in(running_->arguments[i].number, "m");
-    }
+    const ControlArgument* written = find_argument("overrun");
+    const float overrun_m = written != nullptr ? as_.in(written->number, "m") : find_parameter(Id::kHoldHeading, "overrun")->preset;
     static_cast<void>(controller_.set("overrun", greatest(overrun_m - past_m, 0.0f)));
   }
 
@@ -243,6 +240,16 @@ class Pilot {
     }
     return limit;
   }
+
+  /// What the line that is driven by says of a parameter; null: nothing.
+  [[nodiscard]] const ControlArgument* find_argument(const char* name) const noexcept {
+    for (std::uint32_t i = 0; i < running_->count; ++i) {
+      if (same_text(running_->arguments[i].name, name)) return &running_->arguments[i];
+    }
+    return nullptr;
+  }
+  /// Whether the robot has driven so far since the last manoeuvre began that it must have been through the middle of its crossing.
+  [[nodiscard]] bool past_middle() const noexcept { return place_.travelled_m() - entered_m_ > 0.5f * size() * body_.crossing_m; }
 
   /// Whether the controller comes to the end of what it was told of a road with more bends than a task has room for.
   [[nodiscard]] bool knows_no_more() const noexcept { return place_.road() != nullptr && told_m_ < kInfinity && place_.spot().along_m > told_m_; }

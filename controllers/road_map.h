@@ -84,6 +84,17 @@ class RoadsDriven {
   return way;
 }
 
+/// Adds a piece to the course of a task, to the one before if that has the same direction. False: there is no room, and no later piece may be
+/// added either.
+[[nodiscard]] constexpr bool append(Task& task, const Piece& piece) noexcept {
+  constexpr float kSame_rad = 1e-3f;
+  Piece* const last = task.pieces > 0 ? &task.course[task.pieces - 1] : nullptr;
+  if (last != nullptr && magnitude(wrapped_angle(piece.heading_rad - last->heading_rad)) < kSame_rad) last->length_m += piece.length_m;
+  else if (task.pieces == kLongestCourse) return false;
+  else task.course[task.pieces++] = piece;
+  return true;
+}
+
 /// Where the robot's centre is when its line sensors are on the stop line out, in m from the middle of that crossing; and where the stop line in is.
 [[nodiscard]] constexpr float begin_of_course_m(const Body& body) noexcept { return 0.5f * body.crossing_m - body.line_ahead_m; }
 [[nodiscard]] constexpr float end_of_course_m(const MapRoad& road, const Body& body) noexcept { return length_m(road) - 0.5f * body.crossing_m; }
@@ -93,7 +104,7 @@ class RoadsDriven {
 /// was set down there or has turned back, is `driven_m` past that beginning; NaN is 0. At the stop line in, and on a road shorter than its
 /// crossings, there is 1 cm left. Pieces in one direction are one, and those beyond the eighth are left out. O(pieces).
 [[nodiscard]] constexpr Task task_along(const MapRoad& road, const Body& body, float driven_m = 0.0f) noexcept {
-  constexpr float kLeast_m = 0.01f, kSame_rad = 1e-3f;
+  constexpr float kLeast_m = 0.01f;
   Task task;
   const float line_m = 0.5f * body.crossing_m, to_m = end_of_course_m(road, body);
   const float from_m = begin_of_course_m(body) + (driven_m > 0.0f ? driven_m : 0.0f);
@@ -102,11 +113,7 @@ class RoadsDriven {
     const Piece& piece = road.course[i];
     const float left_m = least(passed_m + piece.length_m, to_m) - greatest(passed_m, from_m);
     passed_m += piece.length_m;
-    if (left_m < kLeast_m) continue;
-    Piece* last = task.pieces > 0 ? &task.course[task.pieces - 1] : nullptr;
-    if (last != nullptr && magnitude(wrapped_angle(piece.heading_rad - last->heading_rad)) < kSame_rad) last->length_m += left_m;
-    else if (task.pieces == kLongestCourse) break;
-    else task.course[task.pieces++] = {piece.heading_rad, left_m};
+    if (left_m >= kLeast_m && !append(task, {piece.heading_rad, left_m})) break;
   }
   if (task.pieces == 0) task.course[task.pieces++] = {road.course[road.pieces - 1].heading_rad, kLeast_m};
   task.in_hall = crosses_hall(road) && to_m > line_m;

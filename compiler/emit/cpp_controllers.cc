@@ -146,6 +146,12 @@ void drive_fuzzy(const CppInput& in, const Controller& c, const Control& control
 
 using Lines = std::vector<const Control*>;   // by strategy; null where no line gives a controller
 
+Lines lines_of(const program::Program& program) {
+  Lines of(program.strategies, nullptr);
+  for (const Control& control : program.controls) of[index(control.strategy) - program.first_strategy()] = &control;
+  return of;
+}
+
 /// Assertions that name what the host's `Controllers` lacks.
 void demand_functions(const CppInput& in, const std::vector<Controller>& controllers, const Lines& of, std::string& out) {
   for (const Controller& c : controllers) {
@@ -188,10 +194,7 @@ void emit_cases(const CppInput& in, const std::vector<Controller>& controllers, 
 void emit_controllers(const CppInput& in, std::string& out) {
   const std::vector<Controller> controllers = collect(in);
   emit_structs(controllers, out);
-  Lines of(in.program.strategies, nullptr);
-  for (const Control& control : in.program.controls) {
-    of[index(control.strategy) - in.program.first_strategy()] = &control;
-  }
+  const Lines of = lines_of(in.program);
   out +=
       "/// Stands for a strategy that no `control` line gives a controller: the host's own.\n"
       "template <Strategy kStrategy>\nstruct Run {\n  static constexpr Strategy strategy = kStrategy;\n};\n\n"
@@ -206,8 +209,7 @@ void emit_controllers(const CppInput& in, std::string& out) {
 
 void emit_control_lines(const CppInput& in, std::string& out) {
   if (in.program.controls.empty()) return;
-  Lines of(in.program.strategies, nullptr);
-  for (const Control& control : in.program.controls) of[index(control.strategy) - in.program.first_strategy()] = &control;
+  const Lines of = lines_of(in.program);
   std::string arguments, lines;
   std::size_t count = 0;
   for (std::size_t s = 0; s < of.size(); ++s) {

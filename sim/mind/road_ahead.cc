@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <waymark/controllers/angles.h>
 #include <waymark/controllers/line_sight.h>
+#include <waymark/controllers/road_map.h>
 
 namespace kb::sim {
 namespace {
@@ -153,12 +153,10 @@ void RoadAhead::tell(mts::Task& task, const mts::Place& at, Back back) const {
   const double end_m = length_of(chain);
   double along_m = static_cast<double>(now.along_m);
   const bool beside = now.aside_m > 0.03f && back != Back::kNever;
+  bool room = true;
   const auto add = [&](Spot to) {
-    if (distance(here, to) < 0.01) return;
-    const mts::Piece piece{static_cast<float>(heading(to - here)), static_cast<float>(distance(here, to))};
-    mts::Piece* last = task.pieces > 0 ? &task.course[task.pieces - 1] : nullptr;
-    if (last != nullptr && std::abs(mts::wrapped_angle(piece.heading_rad - last->heading_rad)) < 1e-3f) last->length_m += piece.length_m;
-    else if (task.pieces < mts::kLongestCourse) task.course[task.pieces++] = piece;
+    if (!room || distance(here, to) < 0.01) return;
+    room = mts::append(task, {static_cast<float>(heading(to - here)), static_cast<float>(distance(here, to))});
     here = to;
   };
   if (back == Back::kToLine) {   // a zigzag: to the left of the middle, to the right of it, and back

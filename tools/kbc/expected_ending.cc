@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/display.h"
+#include "sim/drive/judge.h"
 
 namespace kb::cli {
 namespace {
@@ -27,15 +28,24 @@ std::vector<std::string> reports_of(const sim::Knowledge& knowledge) {
 
 /// All that sim::describe may say, each report alone; the short ones first, since of several equally near names the first is suggested.
 std::vector<std::string> endings(const sim::Labyrinth& labyrinth, const sim::Knowledge& knowledge) {
-  std::vector<std::string> all{"arrived", "aborted", "stands without saying why", "still driving when the time was up", "never started"};
+  using Outcome = sim::Summary::Outcome;
+  std::vector<std::string> all{"arrived"};   // wherever
+  const auto add = [&all](Outcome outcome, const std::string& landmark = {}, const std::vector<std::string>& reports = {}, const std::string& running = {}) {
+    sim::Summary summary;
+    summary.outcome = outcome;
+    summary.landmark = landmark;
+    summary.reports = reports;
+    summary.running = running;
+    all.push_back(sim::describe(summary));
+  };
+  for (const Outcome outcome : {Outcome::kAborted, Outcome::kStuck, Outcome::kTimeUp, Outcome::kNeverStarted}) add(outcome);
   for (const auto& crossing : labyrinth.crossings) {
-    for (const std::string_view words : kWithLandmark) all.push_back(fmt::format("{}{}", words, crossing.name));
-    all.back() += ", and is not";
+    for (const Outcome outcome : {Outcome::kArrived, Outcome::kGivenUp, Outcome::kAstray}) add(outcome, crossing.name);
   }
   for (const std::string& report : reports_of(knowledge)) {
-    for (const std::string_view words : kWithReports) all.push_back(fmt::format("{}{}", words, report));
+    for (const Outcome outcome : {Outcome::kStopped, Outcome::kTimeUp}) add(outcome, {}, {report});
   }
-  for (const auto& strategy : knowledge.strategies) all.push_back(fmt::format("stands without saying why, while `{}` runs", strategy.name));
+  for (const auto& strategy : knowledge.strategies) add(Outcome::kStuck, {}, {}, strategy.name);
   return all;
 }
 

@@ -62,6 +62,14 @@ struct Trip {
       robot.drive(last, 0.02);
     }
   }
+  /// Drives until x, halts for a second, and then goes on.
+  void halt_at(double x, const ControlLine& line, const MapRoad& road) {
+    for (int i = 0; i < 3000 && robot.x < x; ++i) drive(0.02);
+    pilot.choose(&kStop, &road);
+    drive(1.0);
+    pilot.choose(&line, &road);
+    drive(20.0);
+  }
   Plant robot;
   Pilot pilot;
   Motion last;
@@ -166,11 +174,7 @@ TEST(Pilot, AWayRoundThatAHaltInterruptsIsContinued) {
     trip.pilot.choose(&kMove, &kSecond);
     for (int i = 0; i < 600 && trip.robot.x < 0.9; ++i) trip.drive(0.02);
     trip.pilot.choose(&around, &kSecond);
-    for (int i = 0; i < 600 && trip.robot.x < halt_m; ++i) trip.drive(0.02);
-    trip.pilot.choose(&kStop, &kSecond);
-    trip.drive(1.0);
-    trip.pilot.choose(&around, &kSecond);
-    trip.drive(20.0);
+    trip.halt_at(halt_m, around, kSecond);
     EXPECT_TRUE(trip.pilot.done()) << halt_m;
     EXPECT_NEAR(trip.robot.y, 0.0, 0.1) << halt_m;
     EXPECT_FALSE(trip.robot.touched);
@@ -285,11 +289,7 @@ TEST(Pilot, ARobotThatHaltsInTheDoorOutOfAHallDrivesOut) {
     Trip trip(0.26, floor);
     trip.pilot.leave_crossing();
     trip.pilot.choose(&straight, &hall);
-    for (int i = 0; i < 3000 && trip.robot.x < halt_m; ++i) trip.drive(0.02);
-    trip.pilot.choose(&kStop, &hall);
-    trip.drive(1.0);
-    trip.pilot.choose(&straight, &hall);
-    trip.drive(20.0);
+    trip.halt_at(halt_m, straight, hall);
     EXPECT_GT(trip.robot.x, 5.6) << halt_m;
     EXPECT_NEAR(trip.robot.y, 0.0, 0.1) << halt_m;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 
 namespace kb::json {
 namespace {
@@ -132,6 +133,15 @@ class Builder {
 };
 
 }  // namespace
+
+std::optional<RepeatedKey> repeated_key(const Json& json) {
+  std::unordered_set<std::string_view> keys;
+  for (std::size_t i = 0; i < json.parts.size(); ++i) {
+    if (!json.keys.empty() && !keys.insert(json.keys[i]).second) return RepeatedKey{json.keys[i], json.parts[i].span};
+    if (auto inner = repeated_key(json.parts[i])) return inner;
+  }
+  return std::nullopt;
+}
 
 std::string_view kind_name(Json::Kind kind) {
   static constexpr std::string_view kNames[] = {"null", "a truth value", "a number", "a string", "a list", "an object"};

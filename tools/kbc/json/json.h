@@ -40,6 +40,15 @@ struct Fault {
 /// Parses `bytes`, which are the beginning of `file`. Nothing if they are not JSON, or nested deeper than kMaxNesting: `fault` says why.
 [[nodiscard]] std::optional<Json> parse(std::string_view bytes, source::FileId file, Fault& fault);
 
+/// A key that an object has twice, and the place of its second value.
+struct RepeatedKey {
+  std::string_view key;
+  source::Span span;
+};
+
+/// The first of them, however deep it lies; nothing if there is none. It lives as long as `json`.
+[[nodiscard]] std::optional<RepeatedKey> repeated_key(const Json& json);
+
 /// `a number`, `an object`.
 [[nodiscard]] std::string_view kind_name(Json::Kind kind);
 

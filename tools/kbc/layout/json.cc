@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <string_view>
-#include <unordered_set>
 
 namespace kb::layout {
 
@@ -15,24 +14,18 @@ namespace {
 
 constexpr double kLargestCount = 4'294'967'295.0;   // the largest uint32, the type of counts in VDA 5050
 
-/// The first key that an object has twice, with the place of its second value. A layout that says something twice is not to lose half of it silently.
-std::optional<json::Fault> repeated_key(const Json& json) {
-  std::unordered_set<std::string_view> keys;
-  for (std::size_t i = 0; i < json.parts.size(); ++i) {
-    if (!json.keys.empty() && !keys.insert(json.keys[i]).second) return json::Fault{json.parts[i].span, fmt::format("the key `{}` is there twice", json.keys[i])};
-    if (auto inner = repeated_key(json.parts[i])) return inner;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<Json> read_json(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics) {
   json::Fault fault;
   auto json = json::parse(sources.bytes(file), file, fault);
-  const std::optional<json::Fault> wrong = json ? repeated_key(*json) : fault;
-  if (wrong) diagnostics.report(Kind::kLayoutSyntax, wrong->span, {"JSON", wrong->what});
-  return wrong ? std::nullopt : json;
+  if (json) {
+    const auto twice = json::repeated_key(*json);   // a layout that says something twice is not to lose half of it silently
+    if (!twice) return json;
+    fault = {twice->span, fmt::format("the key `{}` is there twice", twice->key)};
+  }
+  diagnostics.report(Kind::kLayoutSyntax, fault.span, {"JSON", fault.what});
+  return std::nullopt;
 }
 
 const Json* Fields::want(std::string_view key, Json::Kind kind) const {

@@ -41,18 +41,6 @@ void print(const Json& json, std::string& out) {
   out += object ? '}' : ']';
 }
 
-/// A key that an object has more than once, however deep it lies; null if there is none.
-const std::string* key_twice(const Json& json) {
-  std::set<std::string_view> keys;
-  for (const std::string& key : json.keys) {
-    if (!keys.insert(key).second) return &key;
-  }
-  for (const Json& part : json.parts) {   // no deeper than the JSON that the reader accepts
-    if (const std::string* twice = key_twice(part)) return twice;
-  }
-  return nullptr;
-}
-
 /// Whether it is 2.N or 2.N.N: a later 2.N only adds to what this reads.
 bool is_second_version(std::string_view version) {
   std::size_t numbers = 0;
@@ -78,7 +66,7 @@ class Reader {
     std::optional<Json> root = json::parse(payload, source::FileId::kNone, fault);
     if (!root) return refuse(fmt::format("this is no JSON: {}, at byte {}", fault.what, fault.span.begin + 1));
     if (root->kind != Json::Kind::kObject) return refuse("the message is no object");
-    if (const std::string* twice = key_twice(*root)) return refuse(fmt::format("`{}` is there twice in one object", clipped(*twice)));
+    if (const auto twice = json::repeated_key(*root)) return refuse(fmt::format("`{}` is there twice in one object", clipped(std::string(twice->key))));
     for (const char* key : {"headerId", "orderId", "orderUpdateId"}) {
       const Json* value = root->find(key);
       if (value != nullptr && (value->kind == Json::Kind::kNumber || value->kind == Json::Kind::kString)) references_.emplace_back(key, clipped(value->text));
