@@ -9,7 +9,7 @@ namespace kb::sim {
 
 inline constexpr mts::Body kRobot{
     .line_span_m = 0.10f,         // sensors 25 mm apart: a line 30 mm wide is never between two
-    .stop_line_width_m = 0.10f,   // thrice the paint: see note [a stop line is broad] in sim/mind/stop_line.h
+    .stop_line_width_m = 0.10f,   // thrice the paint: see note [a stop line is broad] in controllers/stop_line.h
     .crossing_m = 0.9f,           // least distance between stop lines of that breadth; more where roads meet at a narrow angle
 };
 

@@ -95,7 +95,7 @@ bool Programmed::over(const mts::Senses& senses, float dt_s) {
 
 mts::Motion Programmed::step(std::int64_t /*now_us*/, const mts::Senses& raw, const TagHeard& /*tag*/, float dt_s) {
   const mts::Senses senses = steadied_.step(raw, dt_s);
-  line_.hear(senses, dt_s, false);
+  line_.step(senses, dt_s, false);
   if (!on_mission()) return {};
   if (!began_) begin(senses);
   if (over(senses, dt_s)) {

@@ -9,10 +9,10 @@
 
 #include <waymark/controllers/any_controller.h>
 #include <waymark/controllers/steady_ranges.h>
+#include <waymark/controllers/stop_line.h>
 #include "sim/drive/helm.h"
 #include "sim/experiment/way.h"
 #include "sim/mind/knowledge.h"
-#include "sim/mind/stop_line.h"
 
 namespace kb::sim::experiment {
 
@@ -50,7 +50,7 @@ class Programmed final : public Helm {
   std::string goal_;
   mts::SteadyRanges steadied_;
   mts::AnyController controller_;
-  StopLine line_;
+  mts::StopLine line_;
   Strategy moves_, crosses_;      // what the judge is told
   float way_m_ = 0.0f;            // since the piece began
   bool pressed_ = false, began_ = false, clear_ = true;

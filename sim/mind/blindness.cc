@@ -18,8 +18,8 @@ void Perception::hear_blindness(float dt_s, bool measured) {
   const float way_m = senses_.odometry_known ? std::abs(senses_.speed_m_s) * dt_s : 0.0f;
   front_unknown_ = std::any_of(kFront.begin(), kFront.end(), [&](std::size_t i) { return std::isnan(senses_.range_m[i]) || (senses_.ranges_unknown >> i & 1u) != 0; });
   const bool any_near = std::any_of(std::begin(senses_.range_m), std::end(senses_.range_m), [](float range_m) { return range_m < mts::kOutOfRange; });
-  line_sight_.hear(senses_.line_known, senses_.line, !measured, way_m, dt_s);
-  range_sight_.hear(senses_.range_known, senses_.range_m, any_near, way_m, dt_s);
+  line_sight_.step(senses_.line_known, senses_.line, !measured, way_m, dt_s);
+  range_sight_.step(senses_.range_known, senses_.range_m, any_near, way_m, dt_s);
   senses_.line_known = line_sight_.sees();
   senses_.range_known = range_sight_.sees();
   for (float& range_m : senses_.range_m) range_m = std::isnan(range_m) ? mts::kOutOfRange : std::min(range_m, mts::kOutOfRange);

@@ -2,61 +2,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include <waymark/controllers/road_sight.h>
 #include "sim/mind/perception.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
 namespace {
 
-constexpr float kObstacleNear = 0.40f;       // m, on a road
-constexpr float kObstacleCrossing = 0.22f;   // m, where walls may stand ahead
-constexpr float kObstacleAside = 0.20f;      // m, ahead to the left and right
-constexpr float kObstacleBend = 0.15f;       // m, the same near a bend between walls, and on the way out of a crossing
-constexpr float kObstacleCorner = 0.17f;     // m, the same before the crossing at the end of its road
-constexpr double kTrackHalf = 0.20;          // m: the robot's radius, and room
-constexpr double kTrackHalfWalled = 0.16;    // m: the walls are at 0.3
-constexpr double kBehind = 0.08;             // m
+constexpr auto kBehind = static_cast<double>(mts::ObstacleSight::kBehind_m);
 constexpr float kBackInMiddle = 1.0f;        // m: how far it must follow its road after going round something to be in the middle again
 constexpr float kWayOut = 0.2f;              // m before the line out: an obstacle ahead of a robot this near stands on that line or behind it
 constexpr float kAlongRoad = 0.5f;           // rad
 constexpr float kPassed = 0.05f;             // m: a robot whose centre is this far behind the line out has passed it
 constexpr float kPassedRound = 0.3f;         // m, the same on the way round something: from this far on it does not turn back to where it began
 constexpr float kLineBehind = 0.3f;          // m: a line nearer than this to the beginning of the road belongs to the crossing that the robot left
-constexpr float kHolds = 0.24f;              // m, ahead or at 45 degrees: a controller stands rather than graze something that is nearer
-constexpr float kHeldUp = 1.0f;              // s
-constexpr float kStillTurns = 0.05f, kStillDrives = 0.02f;   // rad/s, m/s
 constexpr float kLineIn = 0.15f;             // m into a crossing: a line met no farther in is that of the way in
 constexpr double kStarReaches = 0.1;         // m behind the middle of a crossing: up to there the lines of several roads lie beside each other;
 constexpr double kApart = 0.35;              // m before a stop line that lies farther out they no longer do
 
 }  // namespace
 
-void Perception::hear_range() {
-  if (!senses_.range_known) {
-    ahead_m_ = mts::kOutOfRange;
-    return;
-  }
-  ahead_m_ += 0.5f * (senses_.range_m[0] - ahead_m_);   // smoothed: a single near reading is no obstacle
-}
-
-// note [held up]
-// A controller stands before a thing that it would graze, even if that is too far aside, or a little too far away, to count as an obstacle
-// ahead: in a crossing, for instance, where walls may stand beside the exits. So a robot that should drive but stands before something
-// near has an obstacle before it, until it moves.
-void Perception::hear_held_up(float way_m, float turned_rad, float dt_s) {
-  const bool runs = doing_ != nullptr && doing_->drives() && !in_hall();
-  const bool still = way_m < kStillDrives * dt_s && std::abs(turned_rad) < kStillTurns * dt_s + 0.002f;
-  const float nearest_m = std::min({senses_.range_m[0], senses_.range_m[1], senses_.range_m[7]});
-  if (!still || !senses_.range_known || nearest_m > kHolds) held_s_ = 0.0f;
-  else if (runs) held_s_ += dt_s;
-}
-
-bool Perception::held_up() const { return held_s_ > kHeldUp; }
-
-/// How near something ahead must be to be an obstacle. Where walls regularly stand ahead, in crossings and near bends, it must be nearer.
-float Perception::obstacle_at() const {
-  if (phase_ == Phase::kInside) return kObstacleCrossing;
-  return road_.method() == "dist" && road_.progress(reckoning_.at).to_bend_m < kBendNear ? kObstacleCrossing : kObstacleNear;
+mts::Surroundings Perception::surroundings() const {
+  mts::Surroundings where;
+  where.crosses = phase_ == Phase::kInside;
+  where.walls_bend = road_.method() == "dist" && road_.progress(reckoning_.at).to_bend_m < mts::kBendNear_m;
+  where.leaves = phase_ == Phase::kLeaving;
+  where.ends = phase_ == Phase::kApproach && due();   // the walls of the crossing ahead
+  return where;
 }
 
 // note [an obstacle behind the line out]
@@ -122,9 +94,7 @@ bool Perception::line_counts() const {
   return (line_.now() || line_seen_) && !before_middle() && !near_line_behind();
 }
 
-// note [an obstacle on the track]
-// On a road, whatever stands ahead is an obstacle. While the robot goes round it, it faces elsewhere: then whatever stands on the track is an
-// obstacle, wherever the robot faces.
+/// See note [an obstacle on the track].
 void Perception::avoid() {
   avoids_ = rounding_ = phase_ != Phase::kInside;
   if (rounding_) beside_m_ = kBackInMiddle;
@@ -138,7 +108,8 @@ void Perception::avoid() {
 /// Whether something that a range finder sees stands on the track, not far ahead.
 bool Perception::on_track() const {
   const Spot along = direction(static_cast<double>(avoid_.heading_rad)), here{static_cast<double>(reckoning_.at.x_m), static_cast<double>(reckoning_.at.y_m)};
-  const double reach_m = static_cast<double>(obstacle_at()) + kBehind, half_m = road_.method() == "dist" ? kTrackHalfWalled : kTrackHalf;
+  using Sight = mts::ObstacleSight;
+  const double reach_m = static_cast<double>(Sight::reach_m(surroundings())) + kBehind, half_m = static_cast<double>(road_.method() == "dist" ? Sight::kTrackHalfWalled_m : Sight::kTrackHalf_m);
   const double from_m = static_cast<double>(road_.progress(reckoning_.at).along_m);
   for (std::size_t i = 0; i < mts::kRangeFinders; ++i) {
     const double range_m = static_cast<double>(senses_.range_m[i]);
@@ -157,14 +128,9 @@ bool Perception::on_track() const {
 
 float Perception::obstacle_certainty() const {
   if (!senses_.range_known) return 0.0f;
-  if (held_up()) return kSure;
+  if (obstacle_sight_.held_up()) return kSure;
   if (rounding_) return on_track() || !back_on_road() ? kSure : -kSure;   // see note [an obstacle on the track]
-  const bool corner = phase_ == Phase::kApproach && due();   // the walls of the crossing ahead
-  const bool between = phase_ == Phase::kLeaving || obstacle_at() < kObstacleNear;
-  const float least_m = between ? kObstacleBend : corner ? kObstacleCorner : kObstacleAside;
-  const bool aside = phase_ != Phase::kInside && std::min(senses_.range_m[1], senses_.range_m[7]) < least_m;
-  const float room_m = ahead_m_ - obstacle_at();
-  return aside ? kSure : std::clamp(kSure - 2.0f * kSure * room_m / 0.08f, -kSure, kSure);
+  return obstacle_sight_.ahead(surroundings());
 }
 
 }  // namespace kb::sim

@@ -57,8 +57,7 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
   const bool follows = doing_ != nullptr && (doing_->method == "mark" || doing_->method == "dist");
   guided_ = guided_ || (follows && doing_->doing == Doing::kMove && !road_.known() && phase_ == Phase::kOnRoad);
   hear_line(dt_s);
-  hear_range();
-  hear_held_up(way_m, turned_rad, dt_s);
+  obstacle_sight_.step(senses_, doing_ != nullptr && doing_->drives() && !in_hall(), way_m, turned_rad, dt_s);
   hear_way_without_line(way_m);
   if (doing_ != nullptr && phase_ != Phase::kInside) road_.settle(senses_, reckoning_.at, body_, dt_s);
   hear_pushed();
@@ -114,7 +113,7 @@ bool Perception::rounds_to_end() const {
 }
 
 void Perception::hear_line(float dt_s) {
-  line_.hear(senses_, dt_s, rounds_to_end());
+  line_.step(senses_, dt_s, rounds_to_end());
   line_seen_ = line_seen_ || line_.now();
   met_line_ = phase_ == Phase::kApproach && (met_line_ || line_.now());
   waits_at_line_ = waits_at_line_ && met_line_;
@@ -263,7 +262,7 @@ mts::Task Perception::task_for(const Strategy& strategy) const {
     if (task.pieces == 0) task.course[task.pieces++] = {avoid_.heading_rad, kEndless};
   }
   if (const auto back = way_back_rad(); back && strategy.doing == Doing::kRound) task.course[task.pieces++] = {*back, kEndless};
-  if (strategy.doing == Doing::kMove && !road_.known() && set_down_) task.course[task.pieces++] = {set_down_rad_, kEndless};
+  if (strategy.doing == Doing::kMove && !road_.known() && set_down_) task.course[task.pieces++] = {lifted_.facing_rad(), kEndless};
   if (strategy.doing != Doing::kMove || !road_.known()) return task;
   // A robot that strayed knows how far along its road it is, and so whether there is room to look for the line; one that was pushed does not.
   const bool gone = pushed_ || (strayed_ && road_.has_room_to_seek(reckoning_.at));
@@ -296,7 +295,7 @@ void Perception::write_landmark(std::span<float> facts) const {
   const bool turned_away = road_.turned_back() && phase_ == Phase::kLeaving;   // from a sign that could not be read or was wrong
   const bool set_down_beside = set_down_ && phase_ == Phase::kLeaving;   // facing away from the sign: it neither arrives there nor has crossed there
   // A sign that was read once may be that of a place from which the robot has just been carried: see note [carried].
-  const bool read = phase_ != Phase::kApproach || (sign_s_ >= kReads && disagree_s_ <= 0.0f);
+  const bool read = phase_ != Phase::kApproach || (sign_s_ >= kReads && !lifted_.suspected());
   const bool here = phase_ != Phase::kOnRoad && memory_ != nullptr && !turned_away && !set_down_beside && read;
   const float nothing = tag_alive_ ? -kSure : 0.0f;
   for (const NamedFact& landmark : cells_->landmarks) {

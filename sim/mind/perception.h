@@ -22,12 +22,14 @@
 #include <span>
 #include <utility>
 
+#include <waymark/controllers/lifted.h>
+#include <waymark/controllers/liveness.h>
+#include <waymark/controllers/obstacle_sight.h>
 #include <waymark/controllers/reckoning.h>
 #include <waymark/controllers/senses.h>
+#include <waymark/controllers/stop_line.h>
 #include "sim/mind/knowledge.h"
 #include "sim/mind/road_ahead.h"
-#include "sim/mind/sight.h"
-#include "sim/mind/stop_line.h"
 #include "sim/robot/sensors.h"
 #include "sim/robot_body.h"
 
@@ -81,7 +83,6 @@ class Perception {
   enum class Phase : std::uint8_t { kOnRoad, kApproach, kInside, kLeaving };
   static constexpr std::uint32_t kNoExit = 0xFFFFFFFFu;
   static constexpr float kRoadOff = 0.35f;             // m: farther than this from its middle the road cannot be found
-  static constexpr float kBendNear = 0.7f;             // m
   static constexpr float kReadingLasts = 0.25f;        // s: a reading of a sign fails now and then
   static constexpr float kAside = 0.12f;               // m: farther than this from the middle of a road it has not come back to it
   static constexpr float kAcross = 1.3f;               // rad: turned farther than this it does not drive along a road
@@ -92,18 +93,15 @@ class Perception {
   void forget_place();
   void hear_pushed();
   void hear_told();
-  void hear_range();
   void hear_blindness(float dt_s, bool measured);
   void hear_way_without_line(float way_m);
-  void hear_held_up(float way_m, float turned_rad, float dt_s);
   [[nodiscard]] bool line_missed() const;
-  [[nodiscard]] bool held_up() const;
   [[nodiscard]] bool compass_leads() const;
   void enter(const Strategy& strategy, bool resumes);
   void set_out();
   [[nodiscard]] std::uint32_t exit_for(const Strategy& strategy) const;
   [[nodiscard]] std::uint32_t leaves_by() const;
-  [[nodiscard]] float obstacle_at() const;
+  [[nodiscard]] mts::Surroundings surroundings() const;
   [[nodiscard]] float obstacle_certainty() const;
   [[nodiscard]] bool on_track() const;
   [[nodiscard]] bool in_hall() const;
@@ -151,9 +149,9 @@ class Perception {
   RoadAhead road_;                           // as the memory described it when it was entered
   bool guided_ = false;                      // it said nothing, and line or walls were followed: see note [no compass on an untold road]
 
-  // Senses that do not see: see note [a sense that is stuck].
-  Sight<mts::kLineSensors> line_sight_;
-  Sight<mts::kRangeFinders> range_sight_;
+  // Senses that do not see: see note [a sense that is stuck] in controllers/liveness.h.
+  mts::Liveness<mts::kLineSensors> line_sight_;
+  mts::Liveness<mts::kRangeFinders> range_sight_;
   bool front_unknown_ = false;
   float without_line_m_ = 0.0f;              // since the sign
 
@@ -168,20 +166,17 @@ class Perception {
   mts::Place avoid_;                         // the track, where it began to
 
   // Momentary things.
-  StopLine line_;
+  mts::StopLine line_;
   bool line_seen_ = false;
-  float ahead_m_ = mts::kOutOfRange;
-  float held_s_ = 0.0f;                      // how long it has stood before something although it was to drive
+  mts::ObstacleSight obstacle_sight_;
   bool touched_ = false;
-  bool offset_known_ = false;
-  float offset_rad_ = 0.0f, disagree_s_ = 0.0f;   // compass against wheels; how long they, or road and compass, have disagreed
+  mts::Lifted lifted_;
   float carried_s_ = 0.0f;                   // how much longer it is reported
   float rest_s_ = 0.0f;                      // without a mission
   bool keeps_place_ = false;
   bool anew_ = false;                        // it was carried since the strategy began, or there is more to tell of its road
   std::size_t told_to_ = 0;                  // the piece of its road on which it is to be told more
   bool set_down_ = false;                    // it was carried, and has not yet entered a crossing since
-  float set_down_rad_ = 0.0f;                // facing there
   float round_rad_ = 0.0f, last_heading_rad_ = 0.0f;
   std::string memory_text_;
   mts::Plight plight_ = mts::Plight::kNone;

@@ -6,6 +6,7 @@
 
 #include <waymark/controllers/line_sight.h>
 #include <waymark/controllers/road_map.h>
+#include <waymark/controllers/road_sight.h>
 
 namespace kb::sim {
 namespace {
@@ -19,24 +20,9 @@ constexpr double kStillBeside = 0.08;               // m
 constexpr float kClearOfBend = 0.45f;          // m: this far from a bend, line and walls are straight beside the robot
 constexpr float kFacesAlong = 0.25f;           // rad
 constexpr double kBendShows = 0.5;             // rad: the heading tells a sharper bend from straight on
-constexpr float kWidthFits = 0.06f;            // m
 constexpr double kNoticed = 0.12, kStopLineEnds = 0.45;   // m, to either side of a road's end
 constexpr double kLargestShift = 0.3;          // m: a line farther aside is not that of this road
 constexpr float kShiftTau = 0.5f;              // s
-
-/// How far the robot is to the left of the middle of a road driven by `method`, if line or walls show it. `turned_rad`: its heading against
-/// the road.
-std::optional<float> seen_aside(const mts::Senses& senses, const mts::Body& body, std::string_view method, float turned_rad) {
-  if (method == "mark") {
-    const mts::LineSight line = mts::look_at_line(senses, body);
-    if (!line.narrow()) return std::nullopt;
-    return -line.left_m - body.line_ahead_m * turned_rad;
-  }
-  const float left = senses.range_m[2], right = senses.range_m[6];
-  const bool both = std::abs((left + right) * std::cos(turned_rad) - body.road_width_m) < kWidthFits;   // otherwise something stands beside the robot
-  if (method != "dist" || !senses.range_known || !both) return std::nullopt;
-  return 0.5f * (right - left);
-}
 
 }  // namespace
 
@@ -199,9 +185,10 @@ void RoadAhead::settle(const mts::Senses& senses, const mts::Place& at, const mt
   if (passed_bend) there = {course()[now.piece], heading(course()[now.piece] - course()[now.piece - 1])};
   else if (now.to_bend_m < kClearOfBend) return;
   const Spot along = direction(there.heading_rad);
-  const auto aside = seen_aside(senses, body, method(), static_cast<float>(wrap(static_cast<double>(at.heading_rad) - there.heading_rad)));
-  if (!aside) return;
-  const double off_m = cross(along, spot_of(at) - there.at) - static_cast<double>(*aside);   // how far the road lies to the left of where it was reckoned
+  float aside_m = 0.0f;
+  const auto turned_rad = static_cast<float>(wrap(static_cast<double>(at.heading_rad) - there.heading_rad));
+  if (!mts::see_middle(senses, body, memory_->exits[exit_].method.c_str(), turned_rad, aside_m)) return;
+  const double off_m = cross(along, spot_of(at) - there.at) - static_cast<double>(aside_m);   // how far the road lies to the left of where it was reckoned
   if (std::abs(off_m) > kLargestShift + kDrift * static_cast<double>(now.along_m)) return;
   const double shift_m = off_m * static_cast<double>(dt_s / (kShiftTau + dt_s));
   x_m_ += static_cast<float>(shift_m * left_of(along).x_m);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <waymark/controllers/line_sight.h>
+#include <waymark/controllers/road_sight.h>
 #include "sim/mind/perception.h"
 #include "sim/world/geometry.h"
 
@@ -9,7 +10,6 @@ namespace kb::sim {
 namespace {
 
 constexpr float kAlong = 0.7f;                // rad: a robot that goes round an obstacle and is turned farther than this is not yet coming back to the road
-constexpr float kWallNear = 0.5f;             // m
 constexpr float kClear = 4.0f;                // s
 constexpr float kComesBack = 0.8f;            // m
 
@@ -75,12 +75,10 @@ void Perception::write_tracks(std::span<float> facts) const {
       put(facts, track.fact, -kSure);
     } else if (track.name == "mark") {
       bool dark = false;
-      for (const float darkness : senses_.line) dark = dark || darkness > StopLine::kDarkFrom;
+      for (const float darkness : senses_.line) dark = dark || darkness > mts::StopLine::kDarkFrom;
       put(facts, track.fact, !senses_.line_known ? 0.0f : dark ? kSure : -kSure);
     } else if (track.name == "dist") {
-      const int walls = (senses_.range_m[2] < kWallNear ? 1 : 0) + (senses_.range_m[6] < kWallNear ? 1 : 0);
-      const bool enough = walls == 2 || (walls == 1 && here.to_bend_m < kBendNear);   // at a bend the outer wall recedes
-      put(facts, track.fact, !senses_.range_known ? 0.0f : enough ? kSure : walls == 1 ? 0.3f : -kSure);
+      put(facts, track.fact, mts::walls_beside(senses_, here.to_bend_m < mts::kBendNear_m));
     } else {
       put(facts, track.fact, compass_leads() && !beside ? kSure : -kSure);
     }

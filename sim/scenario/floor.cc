@@ -14,7 +14,7 @@ constexpr double kNarrowest = 1.2, kBroadest = 20.0, kLongest = 1000.0;   // m
 constexpr TomlTable::Range kSizes{static_cast<double>(kLeastSize), static_cast<double>(kMostSize)};
 
 // A robot that drives over another road's line has it under its sensors for the width of that line and the way of one control period more.
-// Half of a stop line has to be broader than that: see note [a stop line is broad] in sim/mind/stop_line.h.
+// Half of a stop line has to be broader than that: see note [a stop line is broad] in controllers/stop_line.h.
 PaintWidths read_widths(TomlTable& floor, double size, PaintWidths widths) {
   constexpr double kPeriod = 0.01, kRounding = 1e-6;   // m, at the speeds of size 1
   const std::size_t before = floor.diagnostics().errors();

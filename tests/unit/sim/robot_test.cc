@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "sim/mind/stop_line.h"
+#include <waymark/controllers/stop_line.h>
 #include "sim/robot/sensors.h"
 #include "sim/world/geometry.h"
 #include "tests/unit/sim/laboratory.h"
@@ -94,14 +94,14 @@ TEST(DriveLimits, ALargerRobotTurnsSlower) {
 
 TEST(StopLine, MetAslantIsKnownByLessOfItAndAPaintedLineIsStillNone) {
   const auto periods = [](bool aslant) {
-    StopLine line(kRobot);
+    mts::StopLine line(kRobot);
     mts::Senses senses;
     senses.line_known = senses.odometry_known = senses.turned_known = true;
     for (float& darkness : senses.line) darkness = 0.9f;
     senses.speed_m_s = 0.1f;
     for (int i = 1; i <= 100; ++i) {
       senses.turned_rad += 0.034f;   // 1.7 rad/s: the row, 9 cm ahead, goes 3 mm aside meanwhile
-      line.hear(senses, 0.02f, aslant);
+      line.step(senses, 0.02f, aslant);
       if (line.now()) return i;
     }
     return 0;
@@ -109,12 +109,12 @@ TEST(StopLine, MetAslantIsKnownByLessOfItAndAPaintedLineIsStillNone) {
   EXPECT_EQ(periods(false), 25);     // 5 cm by the wheels
   EXPECT_GE(periods(true), 6);
   EXPECT_LE(periods(true), 8);       // 2.5 cm of the row's own way
-  StopLine line(kRobot);
+  mts::StopLine line(kRobot);
   mts::Senses senses;
   senses.line_known = senses.odometry_known = true;
   senses.speed_m_s = 0.1f;
   for (int i = 0; i < 3; ++i) senses.line[i] = 0.9f;   // a line along the road
-  for (int i = 0; i < 100; ++i) line.hear(senses, 0.02f, true);
+  for (int i = 0; i < 100; ++i) line.step(senses, 0.02f, true);
   EXPECT_FALSE(line.now());
 }
 
@@ -205,13 +205,13 @@ TEST(Sensors, TheLineSensorsSitWhereTheBodySays) {
 
 /// Drives over paint as broad as that, all sensors on it; whether it was a stop line.
 bool is_stop_line(const mts::Body& body, double broad_m) {
-  StopLine line(body);
+  mts::StopLine line(body);
   mts::Senses senses;
   senses.line_known = senses.odometry_known = true;
   senses.speed_m_s = 0.4f;
   for (double way_m = 0.0; way_m < broad_m; way_m += 0.008) {
     std::fill(std::begin(senses.line), std::end(senses.line), 0.95f);
-    line.hear(senses, 0.02f, false);
+    line.step(senses, 0.02f, false);
   }
   return line.now();
 }
