@@ -75,10 +75,20 @@ class NearPoints {
   /// The nearest point on the side of the hand, including points ahead and up to 30 degrees to the other side. With `beside`, only points at
   /// least 60 degrees to the hand count.
   [[nodiscard]] Nearest nearest(const Place& at, bool left, bool beside = false) const noexcept {
+    return nearest_that(at, left, [&](float ahead, float aside) { return !beside || aside * kTan30 >= ahead; });
+  }
+  /// The same without points farther back than 110 degrees to the hand.
+  [[nodiscard]] Nearest nearest_ahead(const Place& at, bool left) const noexcept {
+    return nearest_that(at, left, [](float ahead, float aside) { return ahead > -kTan20 * aside; });
+  }
+
+ private:
+  template <class Counts>
+  [[nodiscard]] Nearest nearest_that(const Place& at, bool left, Counts&& counts) const noexcept {
     float best = kInfinity, best_ahead = 0.0f, best_aside = 0.0f;
     each(at, at.heading_rad, [&](float ahead, float to_left, float square) {
       const float aside = left ? to_left : -to_left;
-      if (square >= best || (aside < 0.0f && aside < -kTan30 * ahead) || (beside && aside * kTan30 < ahead)) return;
+      if (square >= best || (aside < 0.0f && aside < -kTan30 * ahead) || !counts(ahead, aside)) return;
       best = square;
       best_ahead = ahead;
       best_aside = aside;
@@ -87,8 +97,7 @@ class NearPoints {
     return {true, square_root(best), angle_of(best_ahead, best_aside)};
   }
 
- private:
-  static constexpr float kForgets_s = 5.0f, kSquare_m = 0.03f, kTan30 = 0.577350269f;
+  static constexpr float kForgets_s = 5.0f, kSquare_m = 0.03f, kTan20 = 0.363970234f, kTan30 = 0.577350269f;
   struct Point {
     float x_m = 0.0f, y_m = 0.0f;
     float age_s = 1e3f;

@@ -10,7 +10,8 @@
 // Algorithmica 2, 1987, with the law made explicit.)
 // With `passes`, the robot does not change over from the wall to a thing ahead if it can drive between the two, that is, if some lane between
 // their directions, as broad as the robot and 2 cm on each side, is free for 0.45 m. The two are then separate obstacles for a body of that
-// size, and the robot goes round the one with which it began.
+// size, and the robot goes round the one with which it began. That is the nearest one ahead or abeam: a corner that the robot has passed may
+// be nearer, and would lead it away from what stands in its way.
 // If nothing is in reach, the robot drives straight on at first, and on a circle of radius D to that hand once it has kept a wall. After a
 // distance of `gap`, or three quarters of a turn, it stops.
 #pragma once
@@ -38,7 +39,7 @@ class OneWall {
     kept_ = {};
     gone_m_ = turned_rad_ = 0.0f;
     left_ = left;
-    met_ = beside_ = false;
+    met_ = beside_ = abeam_ = false;
   }
 
   /// The senses must have been `heard`, the range finders must be known, and `at` must be reckoned by heading and odometry.
@@ -47,7 +48,7 @@ class OneWall {
     const float hand = left_ ? 1.0f : -1.0f;
     const float reach = gains.distance_m + gains.reach_m;
     points_.step(senses, at, left_, reach, dt);
-    NearPoints::Nearest wall = points_.nearest(at, left_);
+    NearPoints::Nearest wall = gains.passes && !abeam_ ? points_.nearest_ahead(at, left_) : points_.nearest(at, left_);
     if (gains.passes && wall.found && wall.bearing_rad < kPi / 3.0f) {
       const NearPoints::Nearest beside = points_.nearest(at, left_, true);
       if (beside.found && beside.distance_m < reach && was_kept(beside, at) && passable(wall.bearing_rad, beside.bearing_rad, at, body)) wall = beside;
@@ -55,6 +56,7 @@ class OneWall {
     beside_ = wall.found && wall.distance_m < reach;
     if (beside_) {
       met_ = true;
+      abeam_ = abeam_ || wall.bearing_rad > kPi / 3.0f;
       kept_ = spot_of(wall, at);
       gone_m_ = turned_rad_ = 0.0f;
       return clear(along(wall, senses, hand, gains, body), at, body);
@@ -128,6 +130,7 @@ class OneWall {
   float gone_m_ = 0.0f, turned_rad_ = 0.0f;   ///< driven and turned since there was a wall
   bool left_ = false;
   bool met_ = false, beside_ = false;   ///< there has been a wall; there is one now
+  bool abeam_ = false;         ///< it has been abeam
 };
 
 }  // namespace mts

@@ -105,6 +105,25 @@ TEST(RoundObstacle, PassesOnTheSideWithMoreRoom) {
   }
 }
 
+TEST(RoundObstacle, ACornerThatItHasPassedIsNotWhatStandsInItsWay) {
+  for (const double hand : {1.0, -1.0}) {
+    for_each_run([&](const Trial& run) {
+      Floor floor;
+      floor.add_box({1.0, -0.06}, {1.12, 0.06});
+      floor.add_walls({{0.36, 1.5 * hand}, {0.36, 0.25 * hand}, {-0.5, 0.25 * hand}});   // ends nearer to the robot than the box stands
+      Plant plant(floor, noise_of_level(run.level), run.seed);
+      plant.place(0.62, 0.0, 0.0);
+      RoundObstacle controller;
+      controller.gains.side = hand > 0.0 ? Side::kLeft : Side::kRight;
+      controller.gains.distance_m = 0.25f;
+      controller.start({}, plant.sense());
+      drive_until(controller, plant, run.dt_s, 40.0, [&](double) { return controller.done() || controller.lost(); });
+      EXPECT_TRUE(controller.done()) << hand << ' ' << text(run) << " at " << plant.x << ' ' << plant.y;
+      EXPECT_FALSE(plant.touched) << hand << ' ' << text(run);
+    });
+  }
+}
+
 TEST(RoundObstacle, ComesBackWhenThereIsNothingToGoRoundAnyMore) {
   for_each_run([&](const Trial& run) {
     Plant plant = before({0.15, 0.15, 0.0}, run);
