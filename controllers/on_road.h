@@ -1,17 +1,18 @@
 // Where on a road of the map the robot is, by its own reckoning: what a controller has to be told that begins in the middle of one.
 //
 // Where the robot entered the road is known to a few centimetres. From there on the place is reckoned (reckoning.h), and the nearest point of
-// the course that the robot can have reached by now is where it is. Line and walls correct nothing here: they correct the controllers
-// themselves.
+// the course that the robot can have reached by now is where it is. Where line or walls show the middle of the road, they move it sidewards,
+// so that the drift of compass and odometry does not grow with the distance (map matching; the gain is that of a low-pass filter).
 #pragma once
 
 #include "reckoning.h"
 #include "road_map.h"
+#include "road_sight.h"
 #include "similarity.h"
 
 namespace mts {
 
-/// In metres of the robot, whatever its size; only `step` and `enter` take senses, which must have been `heard`, of size 1.
+/// In metres of the robot, whatever its size; only `step`, `settle` and `enter` take senses, which must have been `heard`, of size 1.
 class OnRoad {
  public:
   struct Spot {
@@ -23,7 +24,7 @@ class OnRoad {
   };
 
   /// `body` is the robot's own, not converted.
-  constexpr explicit OnRoad(const Body& body = {}) noexcept : body_(body) {}
+  constexpr explicit OnRoad(const Body& body = {}) noexcept : body_(body), small_(Similarity(body.size).in(body)) {}
 
   /// A manoeuvre begins, with the line sensors on the stop line in; `heading_rad`: in which the robot comes.
   constexpr void enter_crossing(float heading_rad) noexcept {
@@ -73,6 +74,23 @@ class OnRoad {
     reckoning_.step(senses, dt_s);
   }
 
+  /// Corrects the road by its line or walls. To be called each period while the robot is on the road. Near a bend they show nothing, but a robot
+  /// that faces along the piece behind a bend has passed it, wherever the bend was reckoned to be.
+  constexpr void settle(const Senses& senses, float dt_s) noexcept {
+    if (road_ == nullptr) return;
+    const Spot here = spot();
+    const Facing facing = piece_faced(here.along_m);
+    const float turned_rad = wrapped_angle(heading_rad() - facing.heading_rad);
+    const bool passed_bend = magnitude(wrapped_angle(here.heading_rad - facing.heading_rad)) > kBendShows_rad;
+    if (magnitude(turned_rad) > kFacesAlong_rad || (!passed_bend && to_bend_m(here.along_m) < kClearOfBend_m * body_.size)) return;
+    float seen_m = 0.0f;
+    if (!see_middle(senses, small_, road_->by, turned_rad, seen_m)) return;
+    const float off_m = facing.left_m - body_.size * seen_m;   // how far the road lies to the left of where it was reckoned
+    if (magnitude(off_m) > kLargestShift_m * body_.size + kDrift * here.along_m) return;
+    const float shift_m = off_m * (dt_s / (kShiftTau_s + dt_s));
+    x_m_ -= shift_m * sine(facing.heading_rad), y_m_ += shift_m * cosine(facing.heading_rad);
+  }
+
   /// Null: unknown.
   [[nodiscard]] constexpr const MapRoad* road() const noexcept { return road_; }
   /// The robot's heading, and its way since it entered the road; both by reckoning.
@@ -82,10 +100,25 @@ class OnRoad {
   /// Whether the robot faces along the road, or back to where it came from, to 45 degrees. False if the road is unknown.
   [[nodiscard]] constexpr bool faces_along() const noexcept { return road_ != nullptr && turned_rad() < 0.25f * kPi; }
   [[nodiscard]] constexpr bool faces_back() const noexcept { return road_ != nullptr && turned_rad() > 0.75f * kPi; }
+  /// Where it is in the reckoning's own frame, which has the axes of the compass.
+  [[nodiscard]] constexpr Place at() const noexcept { return {x_m(), y_m(), heading_rad()}; }
+  /// The least angle between the robot's heading and a piece of the road near by, along it; 0 to pi. The road must be known.
+  [[nodiscard]] constexpr float turned_rad(float along_m) const noexcept { return magnitude(wrapped_angle(heading_rad() - piece_faced(along_m).heading_rad)); }
+  /// From a point of the road to its nearest bend, ahead or behind, at the least: odometry may be wrong. Infinity if it has none.
+  [[nodiscard]] constexpr float to_bend_m(float along_m) const noexcept {
+    float passed_m = 0.0f, nearest_m = kInfinity;
+    for (std::size_t i = 0; i + 1 < road_->pieces; ++i) {
+      passed_m += road_->course[i].length_m;
+      nearest_m = least(nearest_m, greatest(magnitude(passed_m - along_m) - kDrift * along_m, 0.0f));
+    }
+    return nearest_m;
+  }
   /// The road must be known. O(pieces).
-  [[nodiscard]] constexpr Spot spot() const noexcept {
-    const float from_x_m = x_m() - x_m_, from_y_m = y_m() - y_m_;
-    const float farthest_m = entered_m_ + kCuts * (travelled_m() - turned_m_) + kNearBy_m * body_.size;
+  [[nodiscard]] constexpr Spot spot() const noexcept { return spot_of(0.0f, 0.0f); }
+  /// The same for a thing that lies `thing_x_m`, `thing_y_m` from the robot, with the axes of the compass.
+  [[nodiscard]] constexpr Spot spot_of(float thing_x_m, float thing_y_m) const noexcept {
+    const float from_x_m = x_m() + thing_x_m - x_m_, from_y_m = y_m() + thing_y_m - y_m_;
+    const float farthest_m = entered_m_ + kCuts * (travelled_m() - turned_m_) + kNearBy_m * body_.size + square_root(thing_x_m * thing_x_m + thing_y_m * thing_y_m);
     Spot best;
     float corner_x_m = 0.0f, corner_y_m = 0.0f, passed_m = 0.0f, nearest_m2 = kInfinity;
     for (std::size_t i = 0; i < road_->pieces && passed_m < farthest_m; ++i) {
@@ -131,11 +164,39 @@ class OnRoad {
   [[nodiscard]] constexpr float y_m() const noexcept { return body_.size * reckoning_.at.y_m; }
   [[nodiscard]] constexpr float turned_rad() const noexcept { return magnitude(wrapped_angle(reckoning_.at.heading_rad - spot().heading_rad)); }
 
+  /// The piece near by along which the robot faces most, and how far the robot is to the left of it.
+  struct Facing {
+    float heading_rad = 0.0f, left_m = 0.0f;
+  };
+  [[nodiscard]] constexpr Facing piece_faced(float along_m) const noexcept {
+    const float near_m = kNearBy_m * body_.size + kDrift * along_m;
+    Facing best;
+    float from_x_m = x_m() - x_m_, from_y_m = y_m() - y_m_, passed_m = 0.0f, least_rad = kInfinity;   // `from`: from the corner to the robot
+    for (std::size_t i = 0; i < road_->pieces; ++i) {
+      const Piece& piece = road_->course[i];
+      const float ux = cosine(piece.heading_rad), uy = sine(piece.heading_rad);
+      const float off_rad = magnitude(wrapped_angle(heading_rad() - piece.heading_rad));
+      const bool near_by = along_m > passed_m - near_m && along_m < passed_m + piece.length_m + near_m;
+      if (near_by && off_rad < least_rad) {
+        least_rad = off_rad;
+        best = {piece.heading_rad, ux * from_y_m - uy * from_x_m};
+      }
+      from_x_m -= piece.length_m * ux, from_y_m -= piece.length_m * uy;
+      passed_m += piece.length_m;
+    }
+    return best;
+  }
+
   static constexpr float kCuts = 1.5f;         ///< a bend may be cut: a right angle by the root of 2, across a hall
   static constexpr float kNearBy_m = 0.4f;
   static constexpr float kRejoin_m = 0.35f, kBeside_m = 0.03f;
+  static constexpr float kDrift = 0.03f;       ///< of odometry, as a share of the way
+  static constexpr float kClearOfBend_m = 0.45f;   ///< this far from a bend, line and walls are straight beside the robot
+  static constexpr float kFacesAlong_rad = 0.25f, kBendShows_rad = 0.5f;   ///< the heading tells a sharper bend from straight on
+  static constexpr float kLargestShift_m = 0.3f;   ///< a line farther aside is not that of this road
+  static constexpr float kShiftTau_s = 0.5f;
 
-  Body body_;
+  Body body_, small_;                          ///< the robot's own; the same of size 1
   Reckoning reckoning_{};
   const MapRoad* road_ = nullptr;
   bool started_ = false;

@@ -31,6 +31,8 @@ namespace mts {
 /// Takes at most 15,000 bytes, no heap, and up to 4 KB of stack; on a small microcontroller use the controllers themselves. One object belongs to one thread at a time; it
 /// may be copied.
 class Pilot {
+  using Id = ControllerId;
+
  public:
   /// `body`: the robot's own, in its own metres, whatever its size. `host`: see AnyController::choose.
   explicit Pilot(const Body& body = {}, const Host& host = {}) noexcept : as_(body.size), body_(as_.in(body)), host_(host), place_(body) {}
@@ -56,11 +58,14 @@ class Pilot {
   /// What the wheels are to do until the next period. Takes one sample of the sensors, raw and in metres of the robot; `dt_s`: see AnyController::step.
   [[nodiscard]] Motion step(const Senses& senses, float dt_s) noexcept {
     const float dt = as_.in(dt_s, "s");
-    const Senses steady = heard(steady_.step(as_.in(senses), dt), body_);
+    heard_ = mts::heard(steady_.step(as_.in(senses), dt), body_);
+    const Senses& steady = heard_;
     place_.step(steady, sane_period(dt));
+    if (!crossed_) place_.settle(steady, sane_period(dt));
     if (line_ != running_) begin(steady);
     else if (knows_no_more()) start(steady);
     if (follows_ && place_.travelled_m() - followed_m_ > kForgets_m * size()) suspended_line_ = nullptr;
+    if (follows_) came_rad_ = place_.heading_rad(), came_m_ = place_.travelled_m();
     if (suspended_line_ != nullptr) {
       Senses reckons = steady;
       reckons.line_known = false;
@@ -78,6 +83,19 @@ class Pilot {
 
   /// Where it is on its road.
   [[nodiscard]] const OnRoad& place() const noexcept { return place_; }
+  /// The road of the present leg, as `choose` was told; null: unknown.
+  [[nodiscard]] const MapRoad* road_of_leg() const noexcept { return roads_.road(); }
+  /// Whether a manoeuvre has begun since the robot last followed a road, and how far it has driven since.
+  [[nodiscard]] bool in_crossing() const noexcept { return crossed_; }
+  [[nodiscard]] float crossed_m() const noexcept { return place_.travelled_m() - entered_m_; }
+  /// What drives, from the last `step` on: the line, null if nothing does, and its controller; kStand if that is none of Waymark's.
+  [[nodiscard]] const ControlLine* line() const noexcept { return running_; }
+  [[nodiscard]] ControllerId controller() const noexcept { return controller_.id(); }
+  /// The senses of the last `step` as the controllers had them: steadied, and of size 1.
+  [[nodiscard]] const Senses& heard() const noexcept { return heard_; }
+  /// What a controller is for.
+  [[nodiscard]] static constexpr bool is_manoeuvre(ControllerId id) noexcept { return id == Id::kTurnOnLine || id == Id::kTurnByWalls || id == Id::kTurnByCompass; }
+  [[nodiscard]] static constexpr bool follows(ControllerId id) noexcept { return !is_manoeuvre(id) && id != Id::kStand && id != Id::kRoundObstacle && id != Id::kTurnRound && id != Id::kLookRound; }
   /// For programs with controllers of their own: to be called once, where one of them has driven through a crossing and stands on the line out.
   void leave_crossing() noexcept { crossed_ = left_ = true; }
   /// For robots that begin in the middle of a road, `along_m` from the middle of the crossing where it begins. They need a compass.
@@ -92,14 +110,11 @@ class Pilot {
     place_.forget();
     suspended_line_ = running_ = nullptr;
     crossed_ = left_ = drives_ = changed_ = follows_ = false;
+    came_m_ = -kInfinity;
     told_m_ = kInfinity;
   }
 
  private:
-  using Id = ControllerId;
-  [[nodiscard]] static constexpr bool is_manoeuvre(Id id) noexcept { return id == Id::kTurnOnLine || id == Id::kTurnByWalls || id == Id::kTurnByCompass; }
-  [[nodiscard]] static constexpr bool follows(Id id) noexcept { return !is_manoeuvre(id) && id != Id::kStand && id != Id::kRoundObstacle && id != Id::kTurnRound && id != Id::kLookRound; }
-
   [[nodiscard]] Setting bind(AnyController& controller, const ControlLine& line) const noexcept {
     const ControllerEntry* entry = find_controller(line.controller);
     if (entry == nullptr) return Setting::kUnknown;
@@ -190,6 +205,10 @@ class Pilot {
     if (across.entry_known && senses.heading_known && magnitude(wrapped_angle(senses.heading_rad - across.entry_heading_rad)) > kElsewhere_rad) {
       across.entry_known = false;   // it did not come by the road of its last leg, whatever carried it here
     }
+    if (!across.entry_known && senses.heading_known && entered_m_ - came_m_ < kForgets_m * size()) {
+      across.entry_heading_rad = came_rad_;   // it may have looked round since
+      across.entry_known = true;
+    }
     place_.enter_crossing(across.entry_known ? across.entry_heading_rad : place_.heading_rad());
     return across;
   }
@@ -249,7 +268,7 @@ class Pilot {
     return nullptr;
   }
   /// Whether the robot has driven so far since the last manoeuvre began that it must have been through the middle of its crossing.
-  [[nodiscard]] bool past_middle() const noexcept { return place_.travelled_m() - entered_m_ > 0.5f * size() * body_.crossing_m; }
+  [[nodiscard]] bool past_middle() const noexcept { return crossed_m() > 0.5f * size() * body_.crossing_m; }
 
   /// Whether the controller comes to the end of what it was told of a road with more bends than a task has room for.
   [[nodiscard]] bool knows_no_more() const noexcept { return place_.road() != nullptr && told_m_ < kInfinity && place_.spot().along_m > told_m_; }
@@ -262,6 +281,7 @@ class Pilot {
   Body body_;                                 // of size 1, as the controllers know it
   Host host_;
   SteadyRanges steady_;
+  Senses heard_;
   AnyController controller_, suspended_;      // the second: what was interrupted and is to be continued, if `suspended_line_` is not null
   const ControlLine *line_ = nullptr, *running_ = nullptr, *suspended_line_ = nullptr;
   RoadsDriven roads_;
@@ -270,6 +290,7 @@ class Pilot {
   float told_m_ = kInfinity;                  // how far along its road the robot gets without being told more
   bool drives_ = false;
   float entered_m_ = 0.0f, followed_m_ = 0.0f;   // what it had travelled when the last manoeuvre began, and when it last began to follow a road
+  float came_rad_ = 0.0f, came_m_ = -kInfinity;   // its heading when it last followed a road, and what it had travelled then
   bool follows_ = false;                      // the controller follows a road
   bool crossed_ = false;                      // a manoeuvre has run since the robot last followed a road
   bool left_ = false;                         // and nothing has moved the robot since it ended

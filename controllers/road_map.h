@@ -26,6 +26,15 @@ struct MapRoad {
   std::uint16_t pieces;
 };
 
+/// Facts that stand beside each other in the numbering of a knowledge base, and several runs of them. Static data.
+struct FactRun {
+  std::uint32_t first, count;
+};
+struct FactRuns {
+  const FactRun* runs = nullptr;
+  std::size_t count = 0;
+};
+
 /// Whether the road leads across a hall: `by open`, as `std.hall` calls it.
 [[nodiscard]] constexpr bool crosses_hall(const MapRoad& road) noexcept { return same_text(road.by, "open"); }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -75,6 +76,27 @@ Rows rows_of(const model::Model& model, const program::Program& program, const N
   return rows;
 }
 
+/// The landmarks of all maps as runs of facts: `      {26, 3},`.
+std::string landmark_runs(const model::Model& model, const program::Program& program) {
+  std::unordered_map<std::string_view, std::size_t> facts;
+  const auto cells = program.cells_of(program::CellKind::kFact);
+  for (std::size_t i = 0; i < cells.size(); ++i) facts.emplace(cells[i].name, i);
+  std::set<std::size_t> landmarks;
+  for (const model::Map& map : model.maps) {
+    for (const model::RowId row : map.landmarks) {
+      if (const auto at = facts.find(model[row].name); at != facts.end()) landmarks.insert(at->second);
+    }
+  }
+  std::string out;
+  for (auto at = landmarks.begin(); at != landmarks.end();) {
+    const std::size_t first = *at;
+    std::size_t past = first;
+    for (; at != landmarks.end() && *at == past; ++at) ++past;
+    fmt::format_to(Out(out), "      {{{}, {}}},  // from {}\n", first, past - first, cells[first].name);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string cpp_map(const model::Model& model, const program::Program& program, const tables::Tables& tables, const CppOptions& options) {
@@ -88,8 +110,12 @@ std::string cpp_map(const model::Model& model, const program::Program& program, 
       "  static constexpr mts::Piece kPieces[] = {{   // heading in rad, length in m\n{1}  }};\n"
       "  static constexpr mts::MapRoad kRoads[] = {{\n{2}  }};\n"
       "  static constexpr struct {{\n    Satellite satellite;\n    std::uint32_t road;\n  }} kLegs[] = {{\n{3}  }};\n"
-      "  for (const auto& leg : kLegs) {{\n    if (mind.high(leg.satellite)) return &kRoads[leg.road];\n  }}\n  return nullptr;\n}}\n\n",
-      rows.leg_count, rows.pieces, rows.roads, rows.legs);
+      "  for (const auto& leg : kLegs) {{\n    if (mind.high(leg.satellite)) return &kRoads[leg.road];\n  }}\n  return nullptr;\n}}\n\n"
+      "/// The landmarks among the facts.\n"
+      "[[nodiscard]] inline mts::FactRuns landmarks() noexcept {{\n"
+      "  static constexpr mts::FactRun kRuns[] = {{   // the first, and how many\n{4}  }};\n"
+      "  return {{kRuns, sizeof kRuns / sizeof kRuns[0]}};\n}}\n\n",
+      rows.leg_count, rows.pieces, rows.roads, rows.legs, landmark_runs(model, program));
   const std::string version = version_name(body, "");
   return fmt::format("{0}#pragma once\n\n#include <cstdint>\n\n#include <waymark/controllers/road_map.h>\n\n#include \"{1}\"\n\n"
                      "namespace {2} {{\ninline namespace {3} {{\n\n{4}}}  // namespace {3}\n}}  // namespace {2}\n",

@@ -1,8 +1,11 @@
-// Uses the pilot, so that it is compiled without a standard library. It needs more stack than a controller by itself.
-#include <waymark/controllers/pilot.h>
+// Uses the pilot and the lookout, so that they are compiled without a standard library. They need more stack than a controller by itself.
+#include <waymark/controllers/lookout.h>
+
+#include "paper.kb.h"
 
 namespace {
 
+constexpr mts::FactRun kLandmarks[] = {{static_cast<std::uint32_t>(route1::Fact::LM5), 1}};
 mts::Pilot pilot;
 
 }  // namespace
@@ -18,4 +21,12 @@ extern "C" int freestanding_probe_pilot(const mts::Senses* senses, const mts::Pi
   pilot.leave_crossing();
   pilot.forget_place();
   return static_cast<int>(motion.speed_m_s + motion.turn_rad_s) + (pilot.done() || pilot.lost() || pilot.plight() != mts::Plight::kNone);
+}
+
+extern "C" float freestanding_probe_lookout(route1::Facts* facts, const char* landmark, float dt_s) {
+  mts::Lookout<route1::Knowledge> lookout(mts::Body{}, {kLandmarks, 1});
+  lookout.keep_place(lookout.knows(landmark));
+  lookout.step(pilot, {.landmark = landmark, .exit = "W", .closed = "N E"}, dt_s);
+  lookout.write(*facts);
+  return facts->Line;
 }

@@ -1,5 +1,5 @@
-// A compiled mind, a pilot and a robot: a mission in closed loop.
-#include <waymark/controllers/pilot.h>
+// A compiled mind, its lookout, its pilot and a robot: a mission in closed loop.
+#include <waymark/controllers/lookout.h>
 
 #include <gtest/gtest.h>
 
@@ -27,26 +27,14 @@ plant::Floor yard(bool box) {
   return floor;
 }
 
-/// A perception that knows where the robot is; it stands for tags, and reads line and range finders as they are. `beside_road`: it goes round
-/// something and has not come back.
-void perceive(const Plant& robot, const Senses& senses, bool beside_road, errand::Facts& facts) {
-  const auto truth = [](bool is) { return is ? 0.9f : -0.9f; };
-  const auto dark = std::count_if(std::begin(senses.line), std::end(senses.line), [](float darkness) { return darkness > 0.5f; });
-  facts.Line = truth(dark >= 4);
-  facts.Track.mark = truth(dark >= 1);
-  facts.Track.dist = -0.9f;
-  facts.Track.azimuth = truth(robot.x > 3.0 && !beside_road);
-  facts.Obst = truth(senses.range_m[0] < 0.4f);
-  facts.Safe = facts.CrossBy.mark = 0.9f;
-  facts.Touched = truth(senses.touched);
-  const auto near = [&](double x, double y) { return std::hypot(robot.x - x, robot.y - y) < 0.7; };
-  facts.Dock = truth(near(0.0, 0.0));
-  facts.Arch = truth(near(3.0, 0.0));
-  facts.Shelf = truth(near(6.0, 4.0));
-  facts.In.W = truth(near(-0.3, 0.0) || near(2.7, 0.0));
-  facts.In.S = truth(near(6.0, 3.7));
-  facts.MoveBy.mark = truth(near(0.0, 0.0));
-  facts.MoveBy.azimuth = truth(near(3.0, 0.0));
+/// The sign that a reader reads where the robot is: one lies on each road, 15 cm before the stop line.
+Sign sign_at(const Plant& robot) {
+  constexpr struct { double x, y; const char *landmark, *exit; } kSigns[] = {
+      {-0.5, 0.0, "Dock", "W"}, {0.5, 0.0, "Dock", "E"}, {2.5, 0.0, "Arch", "W"}, {3.5, 0.0, "Arch", "E"}, {6.0, 3.5, "Shelf", "S"}};
+  for (const auto& sign : kSigns) {
+    if (std::hypot(robot.x - sign.x, robot.y - sign.y) < 0.25) return {.landmark = sign.landmark, .exit = sign.exit};
+  }
+  return {};
 }
 
 struct Mission {
@@ -61,19 +49,19 @@ Mission drive_errand(bool box, const plant::Trial& run) {
   errand::Mind mind;
   errand::Facts facts;
   Pilot pilot(robot.body);
+  Lookout<errand::Knowledge> lookout(robot.body, errand::landmarks());
   Mission mission;
-  bool avoids = false;
   for (std::uint64_t tick = 0; mission.time_s < 120.0 && !mission.over; ++tick) {
     const Senses senses = robot.sense();
-    perceive(robot, senses, avoids && !pilot.done(), facts);
+    lookout.write(facts);
     facts.Go = tick == 5 ? 0.9f : -0.9f;
     const auto decision = mind.tick(facts, milliseconds(static_cast<std::uint32_t>(std::lround(run.dt_s * 1000.0))));
     pilot.choose(errand::control_line(decision), errand::road_of_leg(mind), errand::speed_limit_m_per_s(mind));
     const Motion wanted = pilot.step(senses, static_cast<float>(run.dt_s));
+    lookout.step(pilot, sign_at(robot), static_cast<float>(run.dt_s));
     robot.drive(wanted, run.dt_s);
     mission.time_s += run.dt_s;
-    avoids = decision.drives() && decision.strategy() == errand::Strategy::Avoid;
-    mission.avoided = mission.avoided || avoids;
+    mission.avoided = mission.avoided || (decision.drives() && decision.strategy() == errand::Strategy::Avoid);
     if (robot.x > 0.5 && robot.x < 2.2) mission.fastest_m_s = std::max(mission.fastest_m_s, static_cast<double>(wanted.speed_m_s));
     mission.over = tick > 100 && !mind.high(errand::Satellite::Errand);
   }
@@ -82,7 +70,7 @@ Mission drive_errand(bool box, const plant::Trial& run) {
   return mission;
 }
 
-TEST(Pilot, DrivesAMissionByControlLinesAndMapAlone) {
+TEST(Lookout, AMissionNeedsNothingButSensesSignsControlLinesAndTheMap) {
   for (std::uint32_t s = 0; s != errand::Knowledge::kShape.strategies; ++s) {
     const ControlLine* line = errand::control_line(static_cast<errand::Strategy>(s));
     ASSERT_NE(line, nullptr);

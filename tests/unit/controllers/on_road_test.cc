@@ -98,5 +98,43 @@ TEST(OnRoad, OfAnUnknownRoadNothingIsTold) {
   EXPECT_EQ(place.task(true).pieces, 0);
 }
 
+/// Drives `length_m` on with the road's line `line_left_m` to the left of the robot's axis.
+void follow(OnRoad& place, float heading_rad, float length_m, float line_left_m) {
+  Senses senses;
+  senses.heading_known = senses.odometry_known = senses.line_known = true;
+  senses.heading_rad = heading_rad;
+  senses.speed_m_s = 0.25f;
+  for (std::size_t i = 0; i < kLineSensors; ++i) senses.line[i] = magnitude(Body{}.line_sensor_left_m(i) - line_left_m) < 0.005f ? 1.0f : 0.0f;
+  for (float way_m = 0.0f; way_m < length_m; way_m += 0.005f) {
+    place.step(senses, 0.02f);
+    place.settle(senses, 0.02f);
+  }
+}
+
+constexpr MapRoad kMarked = {"Arch", "E", "Shelf", "S", "mark", kInfinity, kElbow, 2};
+
+TEST(OnRoad, ItsLineSaysHowFarAsideTheRobotIs) {
+  OnRoad place = moved(kMarked, 0.5f, 0.15f);   // by odometry; it has followed the line all the time
+  follow(place, 0.0f, 1.2f, 0.0f);
+  EXPECT_NEAR(place.spot().left_m, 0.0f, 0.02f);
+  EXPECT_NEAR(place.spot().along_m, 2.0f, 0.03f) << "of that a line along the road says nothing";
+  follow(place, 0.0f, 0.2f, 0.02f);
+  EXPECT_NEAR(place.spot().left_m, -0.01f, 0.011f) << "the line is to the left of the robot";
+}
+
+TEST(OnRoad, ALineFarAsideIsThatOfAnotherRoad) {
+  OnRoad place = moved(kMarked, 1.0f, 0.6f);
+  follow(place, 0.0f, 1.0f, 0.0f);
+  EXPECT_NEAR(place.spot().left_m, 0.6f, 0.02f);
+}
+
+TEST(OnRoad, ARobotThatFacesAlongThePieceBehindABendHasPassedIt) {
+  OnRoad place = moved(kMarked, 2.5f, 0.0f);   // it is at the bend, 20 cm farther than its odometry says
+  follow(place, 0.5f * kPi, 0.6f, 0.0f);
+  EXPECT_GT(place.spot().along_m, 3.4f);
+  follow(place, 0.5f * kPi, 0.8f, 0.0f);
+  EXPECT_NEAR(place.spot().left_m, 0.0f, 0.02f);
+}
+
 }  // namespace
 }  // namespace mts

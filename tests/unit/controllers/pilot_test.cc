@@ -1,4 +1,4 @@
-// The pilot between a mind and the wheels: what begins where, and what is continued. A mission: pilot_mission_test.cc.
+// The pilot between a mind and the wheels: what begins where, and what is continued. A mission: lookout_mission_test.cc.
 #include <waymark/controllers/pilot.h>
 
 #include <gtest/gtest.h>

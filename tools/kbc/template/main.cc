@@ -1,33 +1,30 @@
 // The program of the robot: what its sensors say in, the motion of its wheels out.
 //
-// Without a robot at hand it rehearses the first seconds of the mission, and prints what the wheels would be told.
+// Without a robot at hand it rehearses the first seconds of the mission: a robot that has no floor but the road to the dock, and goes where
+// its wheels are told.
 #include <cstdint>
 #include <cstdio>
 
-#include <waymark/controllers/pilot.h>
+#include <waymark/controllers/lookout.h>
 
 #include "@NAME@.kb.map.h"
 
 namespace {
 
-// In place of sensors: the facts that the mind decides by, each with how certain it is (1 surely so, -1 surely not, 0 nothing known), and
-// the readings that the controllers drive by.
-void sense(int tick, @NAME@::Facts& facts, mts::Senses& senses) {
-  const bool sign = tick >= 7 && tick < 12;          // the dock's sign is in view
-  const bool line = tick >= 10 && tick < 12;         // its stop line is under the robot
-  facts.Fetch = tick == 2 ? 1.0f : 0.0f;             // the button is pressed for a moment
-  facts.Track.mark = 0.9f;                           // the painted line can be followed
-  facts.Dock = sign ? 0.9f : 0.0f;
-  facts.In.S = sign ? 0.8f : 0.0f;                   // it comes from the south
-  facts.CrossBy.mark = sign ? 0.9f : 0.0f;           // the crossing has a painted line too
-  facts.Safe = sign ? 0.9f : 0.0f;
-  facts.Line = line ? 0.9f : 0.0f;
+constexpr float kPeriod_s = 0.02f;   // the wheels are told fifty times a second
+constexpr int kTick = 5;             // the mind decides on each fifth
 
+// In place of sensors: what they read on a road to the north, `driven_m` from where the robot was put.
+void sense(float driven_m, const mts::Motion& wheels, mts::Senses& senses, mts::Sign& sign) {
+  const bool line = driven_m >= 1.0f && driven_m < 1.05f;             // the dock's stop line is under the row of line sensors
   for (float& darkness : senses.line) darkness = line ? 1.0f : 0.0f;
-  senses.line[2] = 1.0f;                             // the painted line is under the middle sensor
+  senses.line[2] = 1.0f;                                             // the painted line is under the middle one
   for (float& range_m : senses.range_m) range_m = mts::kOutOfRange;   // nothing stands near
-  senses.heading_rad = 0.5f * mts::kPi;              // it faces north
+  senses.heading_rad = 0.5f * mts::kPi;                              // it faces north
+  senses.speed_m_s = wheels.speed_m_s;
   senses.line_known = senses.range_known = senses.heading_known = senses.odometry_known = true;
+  const bool reads = driven_m >= 0.6f && driven_m < 0.8f;             // its sign is under the reader
+  sign = {.landmark = reads ? "Dock" : nullptr, .exit = "S"};         // it lies on the road to the south of the dock
 }
 
 // Whether all controllers that @NAME@.kb names are Waymark's, with parameters that this robot can have. To drive by functions of your own, see
@@ -46,19 +43,31 @@ bool can_drive(const mts::Pilot& pilot) {
 }  // namespace
 
 int main() {
+  constexpr mts::Body body;   // measure your robot: waymark/controllers/body.h
   @NAME@::Mind mind;
   @NAME@::Facts facts;
-  mts::Senses senses;
-  mts::Pilot pilot{mts::Body{}};   // measure your robot: waymark/controllers/body.h
+  mts::Pilot pilot(body);
+  mts::Lookout<@NAME@::Knowledge> lookout(body, @NAME@::landmarks());
   if (!can_drive(pilot)) return 1;
-  for (int tick = 0; tick < 14; ++tick) {
-    sense(tick, facts, senses);
-    const auto decision = mind.tick(facts, mts::milliseconds(200));
-    pilot.choose(@NAME@::control_line(decision), @NAME@::road_of_leg(mind));
-    mts::Motion wheels;
-    for (int period = 0; period < 10; ++period) wheels = pilot.step(senses, 0.02f);
-    std::printf("%4.1f s  %-20s %.2f m/s, %.0f deg/s\n", 0.2 * tick, decision.drives() ? @NAME@::name(decision.strategy()) : "-",
-                static_cast<double>(wheels.speed_m_s), static_cast<double>(wheels.turn_rad_s / mts::kRadPerDeg));
+  mts::Senses senses;
+  mts::Sign sign;
+  mts::Motion wheels;
+  float driven_m = 0.0f;
+  const char* drove = "";
+  for (int period = 0; period < 300; ++period) {
+    sense(driven_m, wheels, senses, sign);
+    if (period % kTick == 0) {
+      lookout.write(facts);                          // what was perceived since the last tick
+      facts.Fetch = period == 25 ? 1.0f : 0.0f;      // the button is pressed for a moment
+      const auto decision = mind.tick(facts, mts::milliseconds(100));
+      pilot.choose(@NAME@::control_line(decision), @NAME@::road_of_leg(mind));
+      const char* drives = decision.drives() ? @NAME@::name(decision.strategy()) : "-";
+      if (drives != drove) std::printf("%4.1f s  %.2f m  %s\n", static_cast<double>(kPeriod_s) * period, static_cast<double>(driven_m), drives);
+      drove = drives;
+    }
+    wheels = pilot.step(senses, kPeriod_s);
+    lookout.step(pilot, sign, kPeriod_s);
+    driven_m += kPeriod_s * wheels.speed_m_s;
   }
   return mind.decision().strategy() == @NAME@::Strategy::Cross_right_mark ? 0 : 1;
 }
