@@ -125,6 +125,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
   if (belief.leg != nullptr) last_leg_ = belief.leg;
   if (options_.helm != nullptr && !options_.helm->goal().empty()) last_landmark_ = options_.helm->goal();
   else if (belief.leg != nullptr) last_landmark_ = belief.leg->to;
+  else if (untold_ != nullptr && on) last_landmark_ = untold_->goal;   // it tells of its mission, but not where that leads
   if (!on && mission_) {
     ended_ = true;
     ended_s_ = time_s();

@@ -162,7 +162,7 @@ void Drive::press(program::CellId fact, bool held) {
   else driver_.mind().press(fact, held ? Mind::kHeld : kPressTicks);
   abort_pressed_ = abort_pressed_ || knowledge_.program->cells[program::index(fact)].name == "Abort";
   for (const Mission& mission : knowledge_.missions) {
-    if (options_.helm == nullptr || untold_ != nullptr || mission_ || mission.command != fact) continue;
+    if (options_.helm == nullptr || (untold_ != nullptr && !options_.helm->mission()) || mission_ || mission.command != fact) continue;
     untold_ = &mission;
     left_goal_ = abort_pressed_ = false;
   }

@@ -26,5 +26,8 @@ for number, line in enumerate(sys.stdin, 1):
     if how == "shouts":
         print(json.dumps({"speed": 0, "turn": 0, "mission": True, "reports": ["\033[2J"]}), flush=True)
         continue
+    if how == "tells":
+        print(json.dumps({"speed": 0.2, "turn": 0, "mission": 2 < senses["t"] < 8}), flush=True)
+        continue
     going = how in ("drives", "ends", "garbles", "forgets", "floods") and senses["t"] > 1
     print(json.dumps({"speed": 0.2 if going else 0, "turn": 0}), flush=True)
