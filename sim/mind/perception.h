@@ -63,6 +63,8 @@ class Perception {
   /// An operator places it `along_m` from the landmark of `memory` on the road that leaves by `exit`, in the middle, facing away from it.
   void put(std::shared_ptr<const Memory> memory, std::uint32_t exit, double along_m);
   [[nodiscard]] bool rests() const { return rest_s_ > 0.0f; }
+  /// Whether its road leads across a hall, and it is not in a crossing.
+  [[nodiscard]] bool in_hall() const;
   /// The road that it is on, by the memory of the road's first landmark; null if unknown.
   [[nodiscard]] const Memory::Exit* road() const { return road_.exit(); }
   /// Whether it is past the stop line of a crossing and not out of it yet: the sign of its exit may have been read already, but not its line.
@@ -104,7 +106,6 @@ class Perception {
   [[nodiscard]] mts::Surroundings surroundings() const;
   [[nodiscard]] float obstacle_certainty() const;
   [[nodiscard]] bool on_track() const;
-  [[nodiscard]] bool in_hall() const;
   void avoid();
   void leave_for_road();
   [[nodiscard]] bool at_way_out() const;

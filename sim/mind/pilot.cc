@@ -48,8 +48,9 @@ void Pilot::choose(int strategy, Perception& perception, const mts::Senses& sens
   if (perception.rests()) suspended_ = -1;   // a manoeuvre that the last mission left unfinished is no part of the next one
   if (strategy == strategy_ && !perception.begins_anew()) return;
   const auto doing = [&](int s) { return s < 0 ? Doing::kNothing : knowledge_.strategies[static_cast<std::size_t>(s)].doing; };
-  const bool interrupts = doing(strategy) == Doing::kAvoid || doing(strategy) == Doing::kStop || strategy < 0;
+  const bool halts = doing(strategy) == Doing::kStop || strategy < 0, interrupts = halts || doing(strategy) == Doing::kAvoid;
   if (doing(strategy_) == Doing::kCross && interrupts) suspended_ = strategy_;
+  if (doing(strategy_) == Doing::kMove && halts && perception.in_hall() && plight() == mts::Plight::kNone && !lost()) suspended_ = strategy_;   // it may be in the door out already
   const bool resumes = strategy >= 0 && strategy == suspended_;
   if (!interrupts) suspended_ = -1;
   strategy_ = strategy;

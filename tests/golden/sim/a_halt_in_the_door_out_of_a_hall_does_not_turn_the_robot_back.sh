@@ -1,0 +1,1 @@
+# RUN: cp ../../../examples/07_open_hall/*.kb %t && cd %t && printf 'import std.pause\nimport "potential.kb"\n' > paused.kb && printf 'limit = 150\n[[event]]\nwhen = { time = 1 }\npress = "Go"\n[[event]]\nwhen = { road = "Door.E", metres = 5.8 }\npress = "Pause"\nfor = 3\n' > pause.toml && kbc sim paused.kb -w --scenario pause.toml
