@@ -152,6 +152,7 @@ struct Draft {
   bool library_missing = false;                     // reported once; what follows from it is not reported
   bool said_no_levels = false;
   bool said_no_exits = false, said_no_methods = false;
+  bool rows_written = false;                        // all fields have what was written, but for conditions
   bool exhausted = false;                           // a limit was reached; nothing more is made
 
   /// Every statement of type `Node`, in order.

@@ -44,9 +44,16 @@ Operand References::evaluate(std::uint32_t id, Environment values) {
   return {};
 }
 
+/// Without recursion from field to field: a reference may have thousands.
 Operand References::evaluate_field(std::uint32_t id, Environment values) {
-  Pattern& pattern = patterns_[id];
-  Operand object = evaluate(pattern.object, values);
+  std::vector<std::uint32_t> fields{id};
+  while (patterns_[patterns_[fields.back()].object].op == Pattern::Op::kField) fields.push_back(patterns_[fields.back()].object);
+  Operand operand = evaluate(patterns_[fields.back()].object, values);
+  for (auto at = fields.rbegin(); at != fields.rend(); ++at) operand = field_of(operand, patterns_[*at]);
+  return operand;
+}
+
+Operand References::field_of(const Operand& object, Pattern& pattern) {
   if (object.kind == Operand::Kind::kBroken || object.kind == Operand::Kind::kMissing) return object;
   if (object.kind != Operand::Kind::kRow) {
     draft_.diagnostics.report(Kind::kNoFields, pattern.field.span, {text(pattern.object), describe(object), pattern.field.text});

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "compiler/model/conditions.h"
+#include "compiler/model/field_reads.h"
 
 namespace kb::model {
 namespace {
@@ -26,6 +27,10 @@ class KeptReader {
   [[nodiscard]] bool depends() const { return binders_[0].used || binders_[1].used; }
 
   std::optional<CondId> of_leg(std::uint32_t leg) {
+    CondId made{};
+    return of_leg(leg, made) == Outcome::kMade ? std::optional(made) : std::nullopt;
+  }
+  Outcome of_leg(std::uint32_t leg, CondId& made) {
     std::vector<Operand> values(binders_.size());
     if (leg != kNone32) {
       const LegInfo& info = draft_.legs[leg];
@@ -35,9 +40,7 @@ class KeptReader {
       values[1].kind = Operand::Kind::kRow;
       values[1].row = info.row;
     }
-    CondId made{};
-    if (conditions_.evaluate(pattern_, values, made) != Outcome::kMade) return std::nullopt;
-    return made;
+    return conditions_.evaluate(pattern_, values, made);
   }
 
  private:
@@ -50,24 +53,52 @@ class KeptReader {
   std::uint32_t pattern_ = 0;
 };
 
-KeptCondition& kept_at(Draft& draft, RowId row, std::string_view field) {
-  return draft.model.kept[index(std::get<KeptId>(*draft.model.field(draft.model[row], field)))];
-}
-
-void resolve_written(Draft& draft) {
-  std::unique_ptr<KeptReader> reader;  // reused, because the rows of one statement follow each other
-  for (const KeptPlace& place : draft.kept) {
-    KeptCondition& kept = kept_at(draft, place.row, place.field);
-    if (kept.tree == nullptr) continue;   // its row has been refused
-    if (!reader || !reader->reads(*kept.tree, kept.condition)) {
-      reader = std::make_unique<KeptReader>(draft, *kept.tree, kept.condition, place.leg != kNone32);
-    }
-    if (const auto made = reader->of_leg(place.leg)) {
-      kept.resolved = *made;
-      kept.is_resolved = true;
-    }
+/// Conditions written in rows, each after those of other rows that it reads.
+class WrittenConditions {
+ public:
+  explicit WrittenConditions(Draft& draft) : draft_(draft) {
+    for (std::uint32_t i = 0; i < draft.kept.size(); ++i) place_of_.emplace(index(kept_id(i)), i);
   }
-}
+  void resolve() {
+    make_in_order_of_need(draft_.kept.size(), [&](std::uint32_t i) { return need(i); }, [&](std::uint32_t i) { make(i); }, [&](std::uint32_t i) { report_circle(i); });
+  }
+
+ private:
+  [[nodiscard]] KeptId kept_id(std::uint32_t i) const { return std::get<KeptId>(*draft_.model.field(draft_.model[draft_.kept[i].row], draft_.kept[i].field)); }
+  [[nodiscard]] KeptCondition& kept(std::uint32_t i) { return draft_.model.kept[index(kept_id(i))]; }
+  [[nodiscard]] std::uint32_t need(std::uint32_t i) {
+    if (kept(i).tree == nullptr) return kNone32;
+    const RowId leg = draft_.kept[i].leg != kNone32 ? draft_.legs[draft_.kept[i].leg].row : RowId::kNone;
+    for (const auto& [row, field] : fields_read(draft_, *kept(i).tree, kept(i).condition, leg)) {
+      const KeptId* const id = std::get_if<KeptId>(&draft_.model.fields(draft_.model[row])[field]);
+      const auto at = id != nullptr ? place_of_.find(index(*id)) : place_of_.end();
+      if (at != place_of_.end()) return at->second;
+    }
+    return kNone32;
+  }
+  void make(std::uint32_t i) {
+    const KeptPlace& place = draft_.kept[i];
+    place_of_.erase(index(kept_id(i)));
+    if (kept(i).tree == nullptr) return;   // its row has been refused
+    if (!reader_ || !reader_->reads(*kept(i).tree, kept(i).condition)) {
+      reader_ = std::make_unique<KeptReader>(draft_, *kept(i).tree, kept(i).condition, place.leg != kNone32);
+    }
+    CondId made{};
+    const Outcome outcome = reader_->of_leg(place.leg, made);
+    if (outcome == Outcome::kMissing) return set_field(draft_, place.row, place.field, {});   // what it reads is not there, so it is not either
+    if (outcome != Outcome::kMade) return;
+    kept(i).resolved = made;
+    kept(i).is_resolved = true;
+  }
+  void report_circle(std::uint32_t i) {
+    place_of_.erase(index(kept_id(i)));
+    draft_.diagnostics.report(Kind::kRowCircle, (*kept(i).tree)[kept(i).condition].span, {draft_.kept[i].field, draft_.model[draft_.kept[i].row].name});
+  }
+
+  Draft& draft_;
+  std::unordered_map<std::size_t, std::uint32_t> place_of_;   // of those that are not yet resolved
+  std::unique_ptr<KeptReader> reader_;                        // reused, because the rows of one statement follow each other
+};
 
 /// note [which road is closed]
 /// A planned detour is taken when the road of the plan and those of the detours before it are closed and its own is open, unless a detour
@@ -155,7 +186,7 @@ void resolve_planned(Draft& draft) {
 }  // namespace
 
 void resolve_kept_conditions(Draft& draft) {
-  resolve_written(draft);
+  WrittenConditions(draft).resolve();
   resolve_planned(draft);
 }
 

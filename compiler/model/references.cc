@@ -79,6 +79,7 @@ std::uint32_t References::fold(std::uint32_t id) {
   for (const Argument& argument : pattern.arguments) same = same && (argument.star || constant(argument.pattern));
   if (!same) return id;
   Operand operand = evaluate(id, {});
+  if (operand.kind == Operand::Kind::kRow) patterns_[id].relation = draft_.model[operand.row].relation;
   patterns_[id].constant = std::move(operand);
   patterns_[id].op = Pattern::Op::kConstant;
   return id;
@@ -229,6 +230,7 @@ std::optional<Operand> References::member_of(std::uint32_t object, const syntax:
 
 /// Warns about a field that no row has, although the relation has rows: a rule that reads it has no instances, which is hardly meant.
 void References::check_filled(RelationId relation, const syntax::Name& field) {
+  if (!draft_.rows_written) return;
   const Relation& known = draft_.model[relation];
   const std::size_t place = *find_field(known, field.text);
   for (const RowId row : known.rows) {

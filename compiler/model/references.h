@@ -141,6 +141,7 @@ class References {
   void check_filled(RelationId relation, const syntax::Name& field);
 
   [[nodiscard]] Operand evaluate_field(std::uint32_t pattern, Environment values);
+  [[nodiscard]] Operand field_of(const Operand& object, Pattern& pattern);
   [[nodiscard]] Operand evaluate_index(std::uint32_t pattern, Environment values);
   [[nodiscard]] Operand evaluate_call(std::uint32_t pattern, Environment values);
   /// The member of `set` that an argument stands for; reports an argument that is no member.
