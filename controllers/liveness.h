@@ -12,11 +12,11 @@ namespace mts {
 template <std::size_t kElements>
 class Liveness {
  public:
-  /// One control period. `tells`: the values could have been others, as those of range finders of which some see something.
+  /// One control period. `way_m`: how far the sensor has moved, by driving or turning. `tells`: the values could have been others, as those of range finders of which some see something.
   constexpr void step(bool known, const float (&elements)[kElements], bool tells, float way_m, float dt_s) noexcept {
     known_ = known;
     if (!known || !tells || !same(elements)) {
-      const bool stood = same_m_ + way_m < kStands_m, lively = known && same_s_ + dt_s < kLively_s;
+      const bool stood = same_m_ + way_m < kStands_m_s * (same_s_ + dt_s), lively = known && same_s_ + dt_s < kLively_s;
       noise_s_ = !lively ? 0.0f : stood ? noise_s_ + same_s_ + dt_s : noise_s_;
       noisy_ = noisy_ || noise_s_ > kNoise_s;
       same_m_ = same_s_ = 0.0f;
@@ -37,7 +37,7 @@ class Liveness {
     return true;
   }
 
-  static constexpr float kStands_m = 0.001f, kLively_s = 0.2f, kNoise_s = 0.4f;   // samples come every 0.01 to 0.05 s
+  static constexpr float kStands_m_s = 0.05f, kLively_s = 0.2f, kNoise_s = 0.4f;   // samples come every 0.01 to 0.05 s
   static constexpr float kStuck_m = 0.05f, kStuck_s = 0.2f;
   float last_[kElements] = {};
   bool known_ = false, noisy_ = false;

@@ -21,7 +21,8 @@
 //   Due           the road ends here, by the map                     Turned         faces back along its road
 //   Carried       compass and wheels, or compass and map, disagree   Trapped, NoWay the controller that crosses a hall
 //
-// All are as in `kbc sim` and `kbc drive`, which know roads by what signs remember; here the map tells them.
+// They mean the same as in `kbc sim` and `kbc drive`, which know roads by what signs remember; here the map tells them. A robot that was
+// pushed beside its line does not look for it to both sides, as it does there.
 #pragma once
 
 #include "road_watch.h"
@@ -32,7 +33,7 @@ namespace mts {
 /// counts as none.
 struct Sign {
   const char* landmark = nullptr;   ///< "LM5"; null or "": it reads nothing
-  const char* exit = nullptr;       ///< the side of the landmark on whose road the sign lies: "W"; null or "": unknown, the map tells it if the road is known
+  const char* exit = nullptr;       ///< the side of the landmark on whose road the sign lies: "W"; null or "": unknown; then the road tells it, or the compass
   bool safe = true;                 ///< the crossing may be entered
   const char* closed = "";          ///< sides whose roads must not be taken: "E" or "E S"
   const char* cross_by = "mark";    ///< how the crossing can be driven: "mark azimuth"
@@ -148,21 +149,33 @@ class Lookout {
     put(facts, landmark, watch_.landmark_certainty());
     written_ = landmark;
     put(facts, singles_[kSafe], approaches ? RoadWatch::sure(sign.safe) : 0.0f);
-    const char* const in = watch_.arrives_by();
+    const char* const in = approaches && watch_.arrives_by()[0] == '\0' ? side_behind() : watch_.arrives_by();
     write_group(facts, kIn, [&](const char* side) { return in[0] == '\0' ? 0.0f : RoadWatch::sure(same_text(side, in)); });
     write_bits(facts, kClosed, approaches, sign.closed);
     write_bits(facts, kCrossBy, approaches, sign.cross_by);
   }
   void write_bits(Facts& facts, GroupId group, bool known, std::uint64_t bits) const noexcept {
-    for (Index i = 0; i < groups_[group].count; ++i) put(facts, groups_[group].first + i, known ? RoadWatch::sure((bits >> (i & 63u) & 1u) != 0) : 0.0f);
+    for (Index i = 0; i < groups_[group].count; ++i) put(facts, groups_[group].first + i, known && i < 64 ? RoadWatch::sure((bits >> (i & 63u) & 1u) != 0) : 0.0f);
   }
 
+  /// The side of the landmark from which the robot came to the sign, by its compass; "" if it has none, or none leads there.
+  [[nodiscard]] const char* side_behind() const noexcept {
+    const char* best = "";
+    float came_rad = 0.0f, nearest_rad = 0.25f * kPi, side_rad = 0.0f;
+    if (!watch_.came(came_rad)) return best;
+    for (Index i = 0; i < groups_[kIn].count; ++i) {
+      if (!compass_point(member(kIn, i), side_rad)) continue;
+      const float off_rad = magnitude(wrapped_angle(came_rad + kPi - side_rad));
+      if (off_rad < nearest_rad) nearest_rad = off_rad, best = member(kIn, i);
+    }
+    return best;
+  }
   /// The sign in names of the knowledge base; null: nothing is read.
   [[nodiscard]] const SignRead* take(const Sign& sign) noexcept {
     if (sign.landmark == nullptr || sign.landmark[0] == '\0') return nullptr;
     if (read_.landmark[0] == '\0' || !same_text(read_.landmark, sign.landmark)) read_.fact = find_landmark(sign.landmark);
+    read_.landmark = read_.fact == kNone ? "" : name_of(read_.fact);
     if (read_.fact == kNone) return nullptr;
-    read_.landmark = name_of(read_.fact);
     read_.exit = find_member(kIn, sign.exit);
     read_.exit_rad_known = compass_point(read_.exit, read_.exit_rad);
     read_.safe = sign.safe;

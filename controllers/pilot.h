@@ -96,6 +96,8 @@ class Pilot {
   /// What a controller is for.
   [[nodiscard]] static constexpr bool is_manoeuvre(ControllerId id) noexcept { return id == Id::kTurnOnLine || id == Id::kTurnByWalls || id == Id::kTurnByCompass; }
   [[nodiscard]] static constexpr bool follows(ControllerId id) noexcept { return !is_manoeuvre(id) && id != Id::kStand && id != Id::kRoundObstacle && id != Id::kTurnRound && id != Id::kLookRound; }
+  /// Whether a turn is to end facing back along the road, as the robot faces along it or the leg leads back already.
+  [[nodiscard]] bool turns_back() const noexcept { return way_back() != nullptr || !place_.faces_back(); }
   /// For programs with controllers of their own: to be called once, where one of them has driven through a crossing and stands on the line out.
   void leave_crossing() noexcept { crossed_ = left_ = true; }
   /// For robots that begin in the middle of a road, `along_m` from the middle of the crossing where it begins. They need a compass.
@@ -103,9 +105,16 @@ class Pilot {
     forget_place();
     place_.put(road, along_m);
   }
+  /// The robot was carried, and set down on a road in this direction: until it comes to a crossing, hold_heading holds that. See forget_place.
+  void set_down(float heading_rad) noexcept {
+    forget_place();
+    set_down_ = true;
+    set_down_rad_ = heading_rad;
+  }
   /// The robot was carried: it is on an unknown road, and what was interrupted is not continued. The controller that drives begins afresh, so
   /// call it once.
   void forget_place() noexcept {
+    set_down_ = false;
     roads_.forget();
     place_.forget();
     suspended_line_ = running_ = nullptr;
@@ -127,7 +136,7 @@ class Pilot {
   }
   /// A value that bodies of this size may have, but not this one, as it is slower or broader, becomes the nearest that it can.
   [[nodiscard]] Setting set_argument(AnyController& controller, const ControlArgument& argument) const noexcept {
-    if (argument.word[0] != '\0') return controller.set_word(argument.name, argument.word);
+    if (argument.word[0] != '\0') return controller.set_word(argument.name, main_turn(argument.word));
     const Parameter* parameter = find_parameter(controller.id(), argument.name);
     if (parameter == nullptr) return Setting::kUnknown;
     const float value = as_.in(argument.number, parameter->unit);
@@ -137,8 +146,16 @@ class Pilot {
     return controller.set(argument.name, clamped(value, lowest(*parameter, body_), highest(*parameter, body_)));
   }
 
+  /// Of the turns of `std.compass8`, the one that controllers know; how far it goes is the map's business.
+  [[nodiscard]] static constexpr const char* main_turn(const char* word) noexcept {
+    if (same_text(word, "half_left") || same_text(word, "sharp_left")) return "left";
+    return same_text(word, "half_right") || same_text(word, "sharp_right") ? "right" : word;
+  }
+
   void begin(const Senses& senses) noexcept {
     suspend();
+    const MapRoad* const back = drives_ && controller_.id() == Id::kTurnRound ? way_back() : nullptr;
+    if (back != nullptr) place_.turn_back(*back);   // whatever it faces: near a bend neither along nor back
     changed_ = follows_ = false;
     running_ = line_;
     if (line_ != nullptr && line_ == suspended_line_) {
@@ -186,12 +203,18 @@ class Pilot {
     if (is_manoeuvre(id)) return across(senses);
     if (id == Id::kTurnRound) return round();
     if (id == Id::kRoundObstacle) {
-      if (crossed_ || place_.road() == nullptr || same_text(place_.road()->by, "dist")) return {};   // walls show where the road bends
+      if (crossed_ || place_.road() == nullptr) return {};
       turn_back_if_leg_does();
+      if (same_text(place_.road()->by, "dist")) return {};   // walls show where the road bends
       return place_.faces_back() ? Task{} : place_.task(false);
     }
     if (!follows(id)) return {};
     follow_road(senses);
+    if (place_.road() == nullptr && set_down_ && id == Id::kHoldHeading) {
+      Task task;
+      task.course[task.pieces++] = {set_down_rad_, kEndless_m};
+      return task;
+    }
     if (place_.faces_back() || place_.road() == nullptr) return {};
     if (id == Id::kHoldHeading) shorten_overrun();
     return place_.task(id == Id::kHoldHeading);
@@ -199,6 +222,7 @@ class Pilot {
   [[nodiscard]] Task across(const Senses& senses) noexcept {
     suspended_line_ = nullptr;
     crossed_ = true;
+    set_down_ = false;
     left_ = false;
     entered_m_ = place_.travelled_m();
     Task across = task_across(roads_);
@@ -218,7 +242,7 @@ class Pilot {
     if (crossed_ || !(place_.faces_along() || place_.faces_back())) return task;
     const ControlArgument* angle = find_argument("angle");
     if (angle != nullptr && angle->number != 180.0f) return task;
-    task.course[task.pieces++] = {wrapped_angle(place_.spot().heading_rad + (place_.faces_back() ? 0.0f : kPi)), 1.0f};
+    task.course[task.pieces++] = {wrapped_angle(place_.spot().heading_rad + (turns_back() ? kPi : 0.0f)), 1.0f};
     return task;
   }
   void follow_road(const Senses& senses) noexcept {
@@ -238,9 +262,17 @@ class Pilot {
     follows_ = true;
     followed_m_ = place_.travelled_m();
   }
+  /// The road that the robot is on in the other direction, if the leg leads there or has just led there; null: neither.
+  [[nodiscard]] const MapRoad* way_back() const noexcept {
+    if (place_.road() == nullptr || roads_.road() == place_.road()) return nullptr;
+    for (const MapRoad* road : {roads_.road(), roads_.came()}) {   // the leg may lead on already: the sign ahead was read before the robot moved
+      if (road != nullptr && is_way_back(*road, *place_.road())) return road;
+    }
+    return nullptr;
+  }
   void turn_back_if_leg_does() noexcept {
-    const MapRoad* road = roads_.road();
-    if (place_.faces_back() && road != nullptr && is_way_back(*road, *place_.road())) place_.turn_back(*road);
+    const MapRoad* const back = way_back();
+    if (back != nullptr && place_.faces_back()) place_.turn_back(*back);
   }
   /// By as much as the robot is past the end of its road already: each start has a whole one.
   void shorten_overrun() noexcept {
@@ -275,7 +307,7 @@ class Pilot {
 
   [[nodiscard]] float size() const noexcept { return as_.out(1.0f, "m"); }
 
-  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f;
+  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f, kEndless_m = 1e3f;
 
   Similarity as_;
   Body body_;                                 // of size 1, as the controllers know it
@@ -289,6 +321,8 @@ class Pilot {
   float limit_m_s_ = kInfinity;
   float told_m_ = kInfinity;                  // how far along its road the robot gets without being told more
   bool drives_ = false;
+  bool set_down_ = false;                     // facing so, and it has not entered a crossing since
+  float set_down_rad_ = 0.0f;
   float entered_m_ = 0.0f, followed_m_ = 0.0f;   // what it had travelled when the last manoeuvre began, and when it last began to follow a road
   float came_rad_ = 0.0f, came_m_ = -kInfinity;   // its heading when it last followed a road, and what it had travelled then
   bool follows_ = false;                      // the controller follows a road

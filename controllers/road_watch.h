@@ -113,6 +113,12 @@ class RoadWatch {
     return sign_.exit;
   }
 
+  /// Which way the robot drove when it read the sign. False: it did not drive, or has no heading.
+  [[nodiscard]] bool came(float& heading_rad) const noexcept {
+    heading_rad = came_rad_;
+    return came_known_ && sign_.landmark[0] != '\0';
+  }
+
   static constexpr float kSure = 0.9f;
   [[nodiscard]] static constexpr float sure(bool is) noexcept { return is ? kSure : -kSure; }
 
@@ -161,8 +167,9 @@ class RoadWatch {
     bool any_near = false;
     for (const float range_m : senses_.range_m) any_near = any_near || range_m < kOutOfRange;
     front_unknown_ = !knows_range(senses_, 0) || !knows_range(senses_, 1) || !knows_range(senses_, kRangeFinders - 1);
-    line_alive_.step(senses_.line_known, senses_.line, true, way_m_, dt);
-    range_alive_.step(senses_.range_known, senses_.range_m, any_near, way_m_, dt);
+    const float moved_m = way_m_ + body_.line_ahead_m * magnitude(turned_rad_);
+    line_alive_.step(senses_.line_known, senses_.line, true, moved_m, dt);
+    range_alive_.step(senses_.range_known, senses_.range_m, any_near, moved_m, dt);
     senses_.line_known = line_alive_.sees();
     senses_.range_known = range_alive_.sees();
     paint_ = false;
@@ -186,7 +193,7 @@ class RoadWatch {
       turned_back_ = true;
       const OnRoad& place = pilot.place();
       knows_way_back_ = !crosses_ && road_ != nullptr && (place.faces_along() || place.faces_back());
-      way_back_rad_ = wrapped_angle(spot_.heading_rad + (knows_way_back_ && place.faces_back() ? 0.0f : kPi));
+      way_back_rad_ = wrapped_angle(spot_.heading_rad + (knows_way_back_ && !pilot.turns_back() ? 0.0f : kPi));
     }
   }
   [[nodiscard]] bool come_about() const noexcept {
@@ -201,6 +208,7 @@ class RoadWatch {
     lifted_.step(senses_, drives && road_ != nullptr && road_turned_rad_ > kAcross_rad, dt);
     if (!lifted_.now()) return;
     forget_place(pilot);
+    pilot.set_down(lifted_.facing_rad());
     sign_ = {};
     at_ = At::kNowhere;
     carried_s_ = kSaysCarried_s;
@@ -215,13 +223,14 @@ class RoadWatch {
   }
   /// Between two missions somebody may carry the robot to where the next one is to begin, and its wheels do not notice.
   void rest(Pilot& pilot, float dt) noexcept {
-    const bool rests = pilot.line() == nullptr;
+    const bool rests = pilot.line() == nullptr && pilot.road_of_leg() == nullptr;
     rest_s_ = rests ? rest_s_ + dt : 0.0f;
+    drove_ = drove_ || !rests;
     waits_at_line_ = keeps_place_ && met_line_ && (rests || waits_at_line_);
     begins_on_road_ = keeps_place_ && (rests || begins_on_road_);
-    if (rest_s_ < kRests_s || (keeps_place_ && (crosses_ || road_ != nullptr || met_line_))) return;
+    if (!drove_ || rest_s_ < kRests_s || (keeps_place_ && (crosses_ || road_ != nullptr || met_line_))) return;
     forget_place(pilot);
-    set_down_ = false;
+    set_down_ = drove_ = false;
     without_line_m_ = 0.0f;
     obstacle_sight_.rest();
     if (unread_s_ < kReadingLasts_s) return;
@@ -266,6 +275,7 @@ class RoadWatch {
     if (unread_s_ > kReadingLasts_s) without_line_m_ = 0.0f;   // the robot comes to the sign anew
     sign_ = sign;
     unread_s_ = since_m_ = 0.0f;
+    if (moves_) came_rad_ = here_.heading_rad, came_known_ = pilot.place().heading_known();
   }
   /// Whether the robot comes to the landmark of a sign or leaves it; kNowhere: neither, it looks across.
   [[nodiscard]] At side_of(const Pilot& pilot, const SignRead& sign) const noexcept {
@@ -365,14 +375,15 @@ class RoadWatch {
   float travelled_m_ = 0.0f, way_m_ = 0.0f, turned_rad_ = 0.0f, crossed_m_ = 0.0f;
   float since_m_ = 0.0f, unread_s_ = kInfinity, sign_s_ = 0.0f, without_line_m_ = 0.0f;
   float clear_s_ = 0.0f, beside_m_ = 0.0f, obstacle_ = 0.0f, carried_s_ = 0.0f, rest_s_ = 0.0f;
-  float round_rad_ = 0.0f, way_back_rad_ = 0.0f;
+  float round_rad_ = 0.0f, way_back_rad_ = 0.0f, came_rad_ = 0.0f;
   ControllerId id_ = ControllerId::kStand;
   Plight plight_ = Plight::kNone;
   At at_ = At::kNowhere;
   bool notices_carried_, keeps_place_ = false;
+  bool drove_ = false;                         // since the place was forgotten; a place that was put is kept until the robot drives
   bool crosses_ = false, enters_ = false, leaves_ = false, moves_ = false, avoids_ = false, rounding_ = false;
   bool due_ = false, passed_end_ = false, paint_ = false, front_unknown_ = false, elsewhere_ = false, beside_ = false;
-  bool line_seen_ = false, touched_ = false, guided_ = false, given_up_ = false, set_down_ = false;
+  bool line_seen_ = false, touched_ = false, guided_ = false, given_up_ = false, set_down_ = false, came_known_ = false;
   bool turned_back_ = false, turned_from_sign_ = false, knows_way_back_ = false, met_line_ = false, waits_at_line_ = false, begins_on_road_ = false;
 };
 

@@ -159,7 +159,7 @@ Cpp cpp(const program::Program& program, const tables::Tables& tables, const Cpp
   std::string& h = cpp.header;
   h += kGenerated;
   h += "#pragma once\n\n#include <cstdint>\n";
-  h += program.limits.empty() ? "\n" : "#include <limits>\n\n";
+  h += program.limits.empty() && program.controls.empty() ? "\n" : "#include <limits>\n\n";
   if (!program.fuzzy.empty()) h += "#include <waymark/runtime/fuzzy_straight.h>\n";
   if (!program.controls.empty()) h += "#include <waymark/runtime/control_line.h>\n";
   h += options.compact ? "#include <waymark/runtime/compact_mind.h>\n" : "#include <waymark/runtime/mind.h>\n";

@@ -238,7 +238,12 @@ void emit_control_lines(const CppInput& in, std::string& out) {
 }
 
 void emit_limits(const CppInput& in, std::string& out) {
-  if (in.program.limits.empty()) return;
+  if (in.program.limits.empty()) {
+    if (in.program.controls.empty()) return;
+    out += "/// How fast the robot may drive: no road has a limit (`at most`).\n"
+           "[[nodiscard]] inline float speed_limit_m_per_s(const Mind&) { return std::numeric_limits<float>::infinity(); }\n\n";
+    return;
+  }
   out +=
       "/// How fast the robot may drive on its present leg, m/s, by the map (`at most`); infinity if the road has no limit.\n"
       "[[nodiscard]] inline float speed_limit_m_per_s(const Mind& mind) {\n"

@@ -49,12 +49,12 @@ void add_road(const GroundRoad& road, Rows& rows) {
     const double x = there.x - here.x, y = there.y - here.y, length_m = std::hypot(x, y);
     const bool only = i + 1 == road.course.size() && rows.piece_count == first;
     if (length_m < kShortestPiece_m && !only) continue;
-    fmt::format_to(Out(rows.pieces), "      {{{}, {}}},  // {}.{}\n", float_literal(static_cast<float>(std::atan2(y, x))), float_literal(static_cast<float>(length_m)), road.from, road.exit);
+    fmt::format_to(Out(rows.pieces), "    {{{}, {}}},  // {}.{}\n", float_literal(static_cast<float>(std::atan2(y, x))), float_literal(static_cast<float>(length_m)), road.from, road.exit);
     ++rows.piece_count;
     here = there;
   }
   const std::string limit = road.limit_m_per_s > 0.0f ? float_literal(road.limit_m_per_s) : "mts::kInfinity";
-  fmt::format_to(Out(rows.roads), "      {{\"{}\", \"{}\", \"{}\", \"{}\", \"{}\", {}, kPieces + {}, {}}},\n", road.from, road.exit, road.to, road.approach, road.by, limit, first, rows.piece_count - first);
+  fmt::format_to(Out(rows.roads), "    {{\"{}\", \"{}\", \"{}\", \"{}\", \"{}\", {}, kMapPieces + {}, {}}},\n", road.from, road.exit, road.to, road.approach, road.by, limit, first, rows.piece_count - first);
 }
 
 Rows rows_of(const model::Model& model, const program::Program& program, const Names& names, const std::map<model::RowId, GroundRoad>& roads) {
@@ -104,13 +104,18 @@ std::string cpp_map(const model::Model& model, const program::Program& program, 
   if (!roads || roads->empty()) return {};
   const Rows rows = rows_of(model, program, make_names(program, tables), *roads);
   const std::string body = fmt::format(
+      "/// The roads that routes and their detours lead along, in both directions where they do.\n"
+      "inline constexpr mts::Piece kMapPieces[] = {{   // heading in rad, length in m\n{1}}};\n"
+      "inline constexpr mts::MapRoad kMapRoads[] = {{\n{2}}};\n\n"
+      "/// The road that leaves a landmark by one of its sides; null if no leg leads along it. O(roads).\n"
+      "[[nodiscard]] constexpr const mts::MapRoad* find_road(const char* from, const char* exit) noexcept {{\n"
+      "  for (const mts::MapRoad& road : kMapRoads) {{\n    if (mts::same_text(road.from, from) && mts::same_text(road.exit, exit)) return &road;\n  }}\n"
+      "  return nullptr;\n}}\n\n"
       "/// The road that the robot's present leg leads along: the one that it is on, or, from the sign of a crossing on, the one by which it\n"
       "/// leaves. Null on the way to the first landmark of a route, and while no route is driven. Reads up to {0} satellites.\n"
       "[[nodiscard]] inline const mts::MapRoad* road_of_leg(const Mind& mind) noexcept {{\n"
-      "  static constexpr mts::Piece kPieces[] = {{   // heading in rad, length in m\n{1}  }};\n"
-      "  static constexpr mts::MapRoad kRoads[] = {{\n{2}  }};\n"
       "  static constexpr struct {{\n    Satellite satellite;\n    std::uint32_t road;\n  }} kLegs[] = {{\n{3}  }};\n"
-      "  for (const auto& leg : kLegs) {{\n    if (mind.high(leg.satellite)) return &kRoads[leg.road];\n  }}\n  return nullptr;\n}}\n\n"
+      "  for (const auto& leg : kLegs) {{\n    if (mind.high(leg.satellite)) return &kMapRoads[leg.road];\n  }}\n  return nullptr;\n}}\n\n"
       "/// The landmarks among the facts.\n"
       "[[nodiscard]] inline mts::FactRuns landmarks() noexcept {{\n"
       "  static constexpr mts::FactRun kRuns[] = {{   // the first, and how many\n{4}  }};\n"

@@ -170,7 +170,7 @@ TypeNames make_type_names(const program::Program& program) {
   TypeNames all;
   Scope& types = all.taken = Scope{"Atom", "Controllers", "Decision", "Fact", "Facts", "Fleet", "Index", "Inputs", "Knowledge", "Mind", "Outputs",
                                    "Perception", "Readings", "Rule", "Run", "Satellite", "Senses", "Strategy", "control_line", "drive", "evaluate",
-                                   "evaluate_tables", "landmarks", "name", "road_of_leg", "speed_limit_m_per_s"};
+                                   "evaluate_tables", "find_road", "kMapPieces", "kMapRoads", "landmarks", "name", "road_of_leg", "speed_limit_m_per_s"};
   const auto field = [](Scope& scope, const std::string& name, const std::string& unit) {
     return scope.make(name + (unit.empty() ? "" : "_" + unit_suffix(unit)));
   };

@@ -15,7 +15,9 @@ constexpr std::array<std::size_t, 3> kFront{0, 1, 7};   // range finders that se
 /// A sensor that is stuck counts as silent; so does a range finder that gives no number. Without the range finders in front the robot drives
 /// blind.
 void Perception::hear_blindness(float dt_s, bool measured) {
-  const float way_m = senses_.odometry_known ? std::abs(senses_.speed_m_s) * dt_s : 0.0f;
+  const float turned_m = senses_.turned_known ? body_.line_ahead_m * std::abs(mts::wrapped_angle(senses_.turned_rad - turned_rad_)) : 0.0f;
+  const float way_m = turned_m + (senses_.odometry_known ? std::abs(senses_.speed_m_s) * dt_s : 0.0f);
+  turned_rad_ = senses_.turned_rad;
   front_unknown_ = std::any_of(kFront.begin(), kFront.end(), [&](std::size_t i) { return std::isnan(senses_.range_m[i]) || (senses_.ranges_unknown >> i & 1u) != 0; });
   const bool any_near = std::any_of(std::begin(senses_.range_m), std::end(senses_.range_m), [](float range_m) { return range_m < mts::kOutOfRange; });
   line_sight_.step(senses_.line_known, senses_.line, !measured, way_m, dt_s);

@@ -154,6 +154,7 @@ class Perception {
   mts::Liveness<mts::kLineSensors> line_sight_;
   mts::Liveness<mts::kRangeFinders> range_sight_;
   bool front_unknown_ = false;
+  float turned_rad_ = 0.0f;
   float without_line_m_ = 0.0f;              // since the sign
 
   // Driving round something: see note [an obstacle on the track].

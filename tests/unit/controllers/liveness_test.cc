@@ -41,6 +41,16 @@ TEST(Liveness, WhatHasNoNoiseMaySeeTheSameForMetres) {
   EXPECT_TRUE(sense.sees());
 }
 
+TEST(Liveness, WhatMovesSlowlyInShortPeriodsDoesNotStand) {
+  Liveness<2> sense;
+  for (int i = 0; i < 1000; ++i) {   // at 0.1 m/s over a floor with paint
+    const float elements[2] = {0.0f, i % 7 == 0 ? 1.0f : 0.0f};
+    sense.step(true, elements, true, 0.0005f, 0.005f);
+  }
+  read(sense, 500, false, 0.008f);
+  EXPECT_TRUE(sense.sees()) << "it has no noise";
+}
+
 TEST(Liveness, WhatSaysNothingDoesNotSee) {
   Liveness<2> sense;
   const float elements[2] = {};

@@ -95,6 +95,27 @@ TEST(Lookout, ASignThatIsAheadTellsOfItsCrossing) {
   EXPECT_EQ(ride.facts.Safe, 0.0f);
 }
 
+TEST(Lookout, ASignThatNobodyKnowsDoesNotHideTheOneAfterIt) {
+  Ride ride;
+  ride.drive(&kFollows, nullptr);
+  for (const char* landmark : {"Arch", "Arc", "Arch"}) {
+    ride.sign = {.landmark = landmark, .exit = "W"};
+    ride.go(0.04f, 0.3f);
+  }
+  EXPECT_GT(ride.facts.Arch, 0.8f);
+}
+
+TEST(Lookout, ASignWithoutASideIsReadByTheCompassOnARoadThatNobodyKnows) {
+  Ride ride;
+  ride.drive(&kFollows, nullptr);
+  ride.sign = {.landmark = "Arch"};
+  ride.go(0.15f, 0.4f);
+  EXPECT_EQ(ride.facts.In.W, 0.9f) << "it drives to the east";
+  ride.drive(&kComesAbout, nullptr);
+  ride.turn(0.5f * kPi);
+  EXPECT_EQ(ride.facts.In.W, 0.9f) << "and looks elsewhere now";
+}
+
 TEST(Lookout, ASignWithoutASideIsReadByTheRoad) {
   Ride ride;
   ride.drive(&kFollows, &kByLine);
@@ -286,8 +307,10 @@ TEST(Lookout, ARobotThatWasCarriedKnowsNoRoad) {
   ride.go(0.3f, 1.0f);
   ASSERT_NE(ride.pilot.place().road(), nullptr);
   EXPECT_EQ(ride.facts.Carried, -0.9f);
+  ride.drive(&kHolds, &kByLine);
   ride.senses.heading_rad = 2.0f;   // and the wheels have not turned
   ride.go(0.1f, 0.3f);
+  EXPECT_EQ(ride.facts.Track.azimuth, 0.9f) << "along the road on which it was set down";
   EXPECT_EQ(ride.facts.Carried, 0.9f);
   EXPECT_EQ(ride.pilot.place().road(), nullptr);
   ride.go(0.3f, 1.0f);
@@ -307,6 +330,19 @@ TEST(Lookout, ARobotThatRestsMayHaveBeenCarriedUnlessItIsNever) {
     ride.go(0.0f, 1.0f);
     EXPECT_EQ(ride.pilot.place().road() != nullptr, keeps);
   }
+}
+
+TEST(Lookout, APlaceThatWasPutIsKeptUntilTheMissionAndALegKeepsIt) {
+  Ride ride;
+  ride.drive(nullptr, nullptr);
+  ride.pilot.put(kByLine, 1.0f);
+  ride.go(0.0f, 5.0f);
+  EXPECT_NE(ride.pilot.place().road(), nullptr) << "it has not driven yet";
+  ride.drive(&kFollows, &kByLine);
+  ride.go(0.3f, 1.0f);
+  ride.drive(nullptr, &kByLine);   // nothing can be followed for a while
+  ride.go(0.0f, 5.0f);
+  EXPECT_NE(ride.pilot.place().road(), nullptr) << "it is on a mission";
 }
 
 TEST(Lookout, AMissionThatBeginsAtAStopLineIsToldOfIt) {

@@ -19,7 +19,7 @@ constexpr ControlArgument kLeft[] = {{"turn", "left", 0.0f, ""}};
 constexpr ControlArgument kAside[] = {{"side", "right", 0.0f, ""}, {"distance", "", 0.2f, "m"}};
 constexpr ControlArgument kForward[] = {{"turn", "forward", 0.0f, ""}};
 constexpr ControlLine kStraight = {"turn_by_compass", kForward, 1};
-constexpr ControlLine kMove = {"hold_heading", kSlow, 1}, kCross = {"turn_by_compass", kLeft, 1}, kAvoid = {"keep_wall", kAside, 2}, kStop = {"stand", nullptr, 0};
+constexpr ControlLine kMove = {"hold_heading", kSlow, 1}, kCross = {"turn_by_compass", kLeft, 1}, kAvoid = {"keep_wall", kAside, 2}, kStop = {"stand", nullptr, 0}, kAbout = {"turn_round", nullptr, 0};
 constexpr Piece kEast[] = {{0.0f, 3.0f}}, kBend[] = {{0.0f, 3.0f}, {0.5f * kPi, 4.0f}}, kBendBack[] = {{-0.5f * kPi, 4.0f}, {kPi, 3.0f}};
 constexpr MapRoad kFirst = {"Dock", "E", "Arch", "W", "azimuth", kInfinity, kEast, 1};
 constexpr Piece kStraightNorth[] = {{0.5f * kPi, 3.0f}};
@@ -41,6 +41,13 @@ TEST(Pilot, SaysBeforeTheRobotDrivesWhetherItCanDriveByALine) {
   EXPECT_EQ(pilot.fits({"hold_heading", no_number, 1}), Setting::kOutside);
   EXPECT_EQ(pilot.fits({"turn_on_line", word, 1}), Setting::kOutside);
   EXPECT_EQ(pilot.fits({"keep_wall", number, 1}), Setting::kOutside);
+}
+
+TEST(Pilot, TurnsOfEightSidesAreDrivenByTheMap) {
+  for (const char* word : {"half_left", "sharp_left", "half_right", "sharp_right"}) {
+    const ControlArgument turn[] = {{"turn", word, 0.0f, ""}};
+    EXPECT_EQ(Pilot().fits({"turn_on_line", turn, 1}), Setting::kSet) << word;
+  }
 }
 
 TEST(Pilot, ASpeedThatOtherRobotsCanDriveBecomesTheTopSpeedOfASlowerOne) {
@@ -348,6 +355,45 @@ TEST(Pilot, OfARobotThatWasCarriedNothingIsKept) {
   trip.drive(0.5);
   EXPECT_EQ(trip.pilot.place().road(), nullptr);
   EXPECT_TRUE(trip.pilot.drives());
+}
+
+TEST(Pilot, ARobotThatWasSetDownHoldsTheHeadingOfItsRoad) {
+  Trip trip(0.0);
+  trip.pilot.choose(&kMove);
+  trip.drive(0.5);
+  trip.robot.place(0.0, 0.0, 1.1);   // it is carried, and has turned a little since
+  trip.pilot.set_down(1.0f);
+  trip.drive(8.0);
+  EXPECT_NEAR(trip.robot.heading, 1.0, 0.05);
+}
+
+TEST(Pilot, ARobotThatComesAboutAtABendIsOnItsWayBack) {
+  Trip trip(0.0);
+  trip.pilot.put(kSecond, 2.9f);   // the bend is at 3 m, and it faces neither along the one piece nor along the other
+  trip.robot.place(0.0, 0.0, 0.7);
+  trip.pilot.choose(&kAbout, &kSecondBack);
+  trip.drive(6.0);
+  trip.pilot.choose(&kMove, &kSecondBack);
+  trip.drive(0.1);
+  ASSERT_NE(trip.pilot.place().road(), nullptr);
+  EXPECT_STREQ(trip.pilot.place().road()->from, "Shelf");
+}
+
+TEST(Pilot, ASignAheadThatIsReadOnTheSpotDoesNotHideThatItHasComeAbout) {
+  Trip trip(0.0);
+  trip.pilot.choose(&kMove, &kFirst);
+  trip.pilot.put(kFirst, 1.5f);
+  trip.drive(0.5);
+  static constexpr Piece west[] = {{kPi, 3.0f}};
+  constexpr MapRoad back = {"Arch", "W", "Dock", "E", "azimuth", kInfinity, west, 1}, on = {"Dock", "N", "Hill", "S", "azimuth", kInfinity, kStraightNorth, 1};
+  trip.pilot.choose(&kAbout, &back);
+  trip.drive(4.0);
+  trip.pilot.choose(&kAbout, &on);   // the sign of Dock was read, and the leg leads on
+  trip.drive(0.1);
+  trip.pilot.choose(&kMove, &on);
+  trip.drive(0.1);
+  ASSERT_NE(trip.pilot.place().road(), nullptr);
+  EXPECT_STREQ(trip.pilot.place().road()->from, "Arch");
 }
 
 }  // namespace
