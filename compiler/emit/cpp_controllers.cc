@@ -69,6 +69,9 @@ std::vector<Controller> collect(const CppInput& in) {
     Scope fields, enumerations{controller.type};
     for (auto& field : controller.fields) {
       field.name = fields.make(field.argument + (field.unit.empty() ? "" : "_" + unit_suffix(field.unit)));
+      static_cast<void>(enumerations.make(field.name));   // a field called `Way` hides a type of that name
+    }
+    for (auto& field : controller.fields) {
       if (field.is_number) continue;
       const std::string type = type_name(field.name);
       field.type = enumerations.make(type == controller.type ? "Word" : type);
