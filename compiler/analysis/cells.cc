@@ -110,11 +110,14 @@ class CellQuestions {
       const float initial = program_[cell].initial;
       if (value != initial && region_of(value, firing) == region_of(initial, firing)) shifted_[program::index(cell)] = true;
     };
+    std::vector<bool> cleared(program_.exclusive.size(), false);
     for (const program::Rule& rule : program_.rules) {
       for (const program::Write& write : rule.writes) mark(write.cell, write.value);
-      for (const std::uint32_t group : rule.clears) {
-        for (const CellId cell : program_.exclusive[group]) mark(cell, -1.0f);
-      }
+      for (const std::uint32_t group : rule.clears) cleared[group] = true;
+    }
+    for (std::size_t group = 0; group < cleared.size(); ++group) {
+      if (!cleared[group]) continue;
+      for (const CellId cell : program_.exclusive[group]) mark(cell, -1.0f);
     }
   }
 

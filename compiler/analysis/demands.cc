@@ -28,6 +28,22 @@ Demands Satisfier::demands(program::CondId condition, std::uint32_t level, std::
   return demands;
 }
 
+namespace {
+
+/// Whether two lists allow each variable some common value. A long list beside a short one is searched, not read: `no G` restricts all members.
+bool allow_common(const std::vector<Restriction>& few, const std::vector<Restriction>& many) {
+  if (few.size() > many.size()) return allow_common(many, few);
+  const auto by_variable = [](const Restriction& one, const Restriction& other) { return one.variable < other.variable; };
+  auto from = many.begin();
+  for (const Restriction& x : few) {
+    from = std::lower_bound(from, many.end(), x, by_variable);
+    if (from != many.end() && from->variable == x.variable && (from->allowed & x.allowed) == 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 bool compatible(const Demands& a, const Demands& b) {
   for (std::size_t i = 0, j = 0; i < a.holders.size() && j < b.holders.size();) {
     const Holder& x = a.holders[i];
@@ -36,14 +52,7 @@ bool compatible(const Demands& a, const Demands& b) {
     i += x.choice <= y.choice ? 1 : 0;
     j += y.choice <= x.choice ? 1 : 0;
   }
-  for (std::size_t i = 0, j = 0; i < a.each.size() && j < b.each.size();) {
-    const Restriction& x = a.each[i];
-    const Restriction& y = b.each[j];
-    if (x.variable == y.variable && (x.allowed & y.allowed) == 0) return false;
-    i += x.variable <= y.variable ? 1 : 0;
-    j += y.variable <= x.variable ? 1 : 0;
-  }
-  return a.possible && b.possible;
+  return a.possible && b.possible && allow_common(a.each, b.each);
 }
 
 }  // namespace kb::analysis
