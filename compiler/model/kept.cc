@@ -56,29 +56,34 @@ class KeptReader {
 /// Conditions written in rows, each after those of other rows that it reads.
 class WrittenConditions {
  public:
-  explicit WrittenConditions(Draft& draft) : draft_(draft) {
-    for (std::uint32_t i = 0; i < draft.kept.size(); ++i) place_of_.emplace(index(kept_id(i)), i);
+  explicit WrittenConditions(Draft& draft) : draft_(draft), place_of_(draft.model.kept.size(), kNone32) {
+    ids_.reserve(draft.kept.size());
+    for (const KeptPlace& place : draft.kept) {
+      ids_.push_back(std::get<KeptId>(*draft.model.field(draft.model[place.row], place.field)));
+      place_of_[index(ids_.back())] = static_cast<std::uint32_t>(ids_.size() - 1);
+    }
   }
   void resolve() {
-    make_in_order_of_need(draft_.kept.size(), [&](std::uint32_t i) { return need(i); }, [&](std::uint32_t i) { make(i); }, [&](std::uint32_t i) { report_circle(i); });
+    make_in_order_of_need(ids_.size(), [&](std::uint32_t i) { return need(i); }, [&](std::uint32_t i) { make(i); }, [&](std::uint32_t i) { report_circle(i); });
   }
 
  private:
-  [[nodiscard]] KeptId kept_id(std::uint32_t i) const { return std::get<KeptId>(*draft_.model.field(draft_.model[draft_.kept[i].row], draft_.kept[i].field)); }
-  [[nodiscard]] KeptCondition& kept(std::uint32_t i) { return draft_.model.kept[index(kept_id(i))]; }
+  [[nodiscard]] KeptCondition& kept(std::uint32_t i) { return draft_.model.kept[index(ids_[i])]; }
   [[nodiscard]] std::uint32_t need(std::uint32_t i) {
-    if (kept(i).tree == nullptr) return kNone32;
+    const KeptCondition& one = kept(i);
+    if (one.tree == nullptr || (one.tree == alone_tree_ && one.condition == alone_)) return kNone32;
     const RowId leg = draft_.kept[i].leg != kNone32 ? draft_.legs[draft_.kept[i].leg].row : RowId::kNone;
-    for (const auto& [row, field] : fields_read(draft_, *kept(i).tree, kept(i).condition, leg)) {
+    const std::vector<FieldPlace> reads = fields_read(draft_, *one.tree, one.condition, leg);
+    if (reads.empty()) alone_tree_ = one.tree, alone_ = one.condition;
+    for (const auto& [row, field] : reads) {
       const KeptId* const id = std::get_if<KeptId>(&draft_.model.fields(draft_.model[row])[field]);
-      const auto at = id != nullptr ? place_of_.find(index(*id)) : place_of_.end();
-      if (at != place_of_.end()) return at->second;
+      if (id != nullptr && place_of_[index(*id)] != kNone32) return place_of_[index(*id)];
     }
     return kNone32;
   }
   void make(std::uint32_t i) {
     const KeptPlace& place = draft_.kept[i];
-    place_of_.erase(index(kept_id(i)));
+    place_of_[index(ids_[i])] = kNone32;
     if (kept(i).tree == nullptr) return;   // its row has been refused
     if (!reader_ || !reader_->reads(*kept(i).tree, kept(i).condition)) {
       reader_ = std::make_unique<KeptReader>(draft_, *kept(i).tree, kept(i).condition, place.leg != kNone32);
@@ -91,13 +96,16 @@ class WrittenConditions {
     kept(i).is_resolved = true;
   }
   void report_circle(std::uint32_t i) {
-    place_of_.erase(index(kept_id(i)));
+    place_of_[index(ids_[i])] = kNone32;
     draft_.diagnostics.report(Kind::kRowCircle, (*kept(i).tree)[kept(i).condition].span, {draft_.kept[i].field, draft_.model[draft_.kept[i].row].name});
   }
 
   Draft& draft_;
-  std::unordered_map<std::size_t, std::uint32_t> place_of_;   // of those that are not yet resolved
-  std::unique_ptr<KeptReader> reader_;                        // reused, because the rows of one statement follow each other
+  std::vector<KeptId> ids_;                            // beside draft.kept
+  std::vector<std::uint32_t> place_of_;                // by kept condition: index into ids_, until it is resolved
+  const syntax::Tree* alone_tree_ = nullptr;           // the last condition that reads no row
+  syntax::CondId alone_{};
+  std::unique_ptr<KeptReader> reader_;                 // reused, because the rows of one statement follow each other
 };
 
 /// note [which road is closed]
