@@ -257,6 +257,7 @@ bool next_combination(std::vector<std::size_t>& places, Size size) {
 
 void declare_sets(Draft& draft);          // sets.cc
 void declare_levels(Draft& draft);        // settings.cc
+void report_no_levels(Draft& draft, source::Span at);   // settings.cc
 void declare_all(Draft& draft);           // declare.cc: cells, groups, relations, maps, in order of the statements
 void declare_map(Draft& draft, const syntax::Map& map);   // maps.cc
 void choose_exits(Draft& draft);          // maps.cc: which sets name the exits and the methods of roads
