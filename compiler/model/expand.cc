@@ -122,7 +122,7 @@ void expand_rules(Draft& draft) {
     if (draft.exhausted) return;
     const auto [first, fresh] = known.emplace(rule.name.text, rule.name.span);
     if (!fresh) {
-      draft.diagnostics.report(Kind::kRuleTwice, rule.name.span, {rule.name.text}).note(Kind::kFirstDeclaredHere, first->second);
+      draft.diagnostics.report(Kind::kRuleTwice, rule.name.span, {rule.name.text}).note(Kind::kFirstDeclaredHere, first->second).note(Kind::kRuleNamesShared, {});
     }
     RuleReader(draft, tree, rule).run();
   });

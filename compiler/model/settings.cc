@@ -201,7 +201,8 @@ void declare_levels(Draft& draft) {
                                    [](const syntax::Name& a, const syntax::Name& b) { return a.text == b.text; });
       if (same) return;
       draft.diagnostics.report(Kind::kLevelsTwice, statement.span)
-          .note(Kind::kFirstDeclaredHere, first->names.front().span);
+          .note(Kind::kFirstDeclaredHere, first->names.front().span)
+          .note(Kind::kLevelsOnce, {});
       return;
     }
     if (levels.names.empty()) return;
