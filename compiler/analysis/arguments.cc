@@ -204,18 +204,18 @@ std::string kind_of(const program::Control::Argument& argument) {
 
 // Reports for each argument of a controller the first line that gives it another kind.
 void diagnose_kinds(const Subject& subject) {
-  struct First { const program::Control* control; const program::Control::Argument* argument; bool said; };
+  struct First { const program::Control::Argument* argument; bool said; };
   std::map<std::pair<std::string_view, std::string_view>, First> known;
   for (const program::Control& control : subject.program.controls) {
     if (control.fuzzy != fuzzy::kNone) continue;
     for (const auto& argument : control.arguments) {
-      const auto [at, fresh] = known.try_emplace({control.controller, argument.name}, First{&control, &argument, false});
+      const auto [at, fresh] = known.try_emplace({control.controller, argument.name}, First{&argument, false});
       First& first = at->second;
       const std::string here = kind_of(argument), there = kind_of(*first.argument);
       if (fresh || first.said || here == there) continue;
       first.said = true;
-      subject.diagnostics.report(Kind::kArgumentKinds, control.span, {argument.name, control.controller, here, there})
-          .note(Kind::kOtherControlHere, first.control->span);
+      subject.diagnostics.report(Kind::kArgumentKinds, argument.span, {argument.name, control.controller, here, there})
+          .note(Kind::kOtherControlHere, first.argument->span);
     }
   }
 }

@@ -326,8 +326,7 @@ class ConflictQuestions {
     const bool first_is_users = !program_[finding.first].standard && program_[finding.second].standard;
     const Rule& here = program_[first_is_users ? finding.first : finding.second];
     const Rule& there = program_[first_is_users ? finding.second : finding.first];
-    const std::string_view a = program_[finding.first].name;
-    const std::string_view b = program_[finding.second].name;
+    const std::string_view a = program_[finding.first].name, b = program_[finding.second].name;
     const std::string& level = program_.levels[here.level];
     const std::string_view cell = program_[finding.about.cell].name;
     const std::string others = finding.pairs.size() < kMostCounted ? more(static_cast<std::uint32_t>(finding.pairs.size()), "such pairs of their instances")
@@ -337,34 +336,7 @@ class ConflictQuestions {
                                                        {a, b, level, cell, program_[finding.about.other].name, others})
                          : subject_.diagnostics.report(Kind::kConflictingRules, here.span, {a, b, level, cell, others});
     if (there.span != here.span) message.note(Kind::kOtherRuleHere, there.span, {there.name});
-    note_events(program_[finding.first], program_[finding.second], message);
-  }
-
-  /// Adds a note if the rules can meet only at an event, or at two events at once, with what the user can do about it.
-  void note_events(const Rule& a, const Rule& b, diagnostics::Builder& message) const {
-    const std::string first = event_in(a.condition), second = event_in(b.condition);
-    if (first == second) return;
-    const bool both = !first.empty() && !second.empty();
-    const bool second_goes_first = first.empty() || (both && b.standard);   // the other rule is to ask for more, which the user can write
-    const std::string& event = second_goes_first ? second : first;
-    const Rule& other = second_goes_first ? a : b;
-    const std::string code = "`" + event + "`", denied = "not " + event;
-    if (both) message.note(Kind::kEventsTogether, {}, {"`" + first + "`", "`" + second + "`", code, other.name, denied});
-    else if (!other.standard) message.note(Kind::kOnEvent, {}, {code, other.name, denied});
-    else if (other.level + 2 < program_.levels.size()) message.note(Kind::kOnEventOfUsers, {}, {code, other.name, program_.levels[other.level]});
-    else message.note(Kind::kOnEventAlone, {}, {code});
-  }
-
-  /// An event without which the condition does not hold, as it is written; empty if there is none.
-  [[nodiscard]] std::string event_in(program::CondId condition) const {
-    using Op = program::Cond::Op;
-    const program::Cond& cond = program_[condition];
-    if (cond.op == Op::kEvent || cond.op == Op::kLost) return program::print_condition(program_, condition);
-    if (cond.op != Op::kAnd) return {};
-    for (const program::CondId part : cond.children) {
-      if (std::string found = event_in(part); !found.empty()) return found;
-    }
-    return {};
+    note_events(subject_, satisfier_, program_[finding.first], program_[finding.second], message);
   }
 
   Subject& subject_;

@@ -169,6 +169,43 @@ void diagnose_needless(Subject& subject) {
   });
 }
 
+/// A rule raises one of them, or it is high from the start.
+bool any_raised(const Subject& subject, const source::Few<CellId, 4>& cells) {
+  return std::any_of(cells.begin(), cells.end(), [&](CellId cell) {
+    return subject.raiser[program::index(cell)] != RuleId::kNone || subject.program[cell].initial >= 0.0f;
+  });
+}
+
+/// Reports rules that lower a satellite of something that no rule raises, nor any that was declared with it. Where it is no satellite of
+/// anything, or of a strategy that has no other, the message is that it is never set, never read, or never wanted.
+void diagnose_lowered_in_vain(Subject& subject) {
+  const Program& program = subject.program;
+  const std::vector<CellId> attended = attended_by(program);
+  const auto says_otherwise = [&](CellId cell) {
+    const CellId of = attended[program::index(cell)];
+    if (of == CellId::kNone || subject.reported[program::index(cell)]) return true;
+    return program[of].kind == program::CellKind::kStrategy && !can_be_high(subject.written, of);
+  };
+  std::vector<bool> vain(program.cells.size(), false);
+  for (const Clan& clan : subject.clans) {
+    if (any_raised(subject, clan.cells)) continue;
+    for (const CellId cell : clan.cells) vain[program::index(cell)] = !says_otherwise(cell);
+  }
+  ByFamily<CellId> found(subject);
+  for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
+    const auto write = std::ranges::find_if(program.rules[i].writes, [&](const program::Write& one) { return one.value < 0.0f && vain[program::index(one.cell)]; });
+    if (!Subject::generated(program.rules[i]) && write != program.rules[i].writes.end()) found.add(RuleId{i}, write->cell);
+  }
+  found.for_each([&](RuleId id, CellId cell, std::uint32_t count) {
+    auto message = subject.diagnostics.report(Kind::kLoweredInVain, program[id].span, {program[id].name, program[cell].name, more(count)});
+    const program::Cell& of = program[attended[program::index(cell)]];
+    for (const CellId other : of.satellites) {
+      const RuleId raiser = subject.raiser[program::index(other)];
+      if (raiser != RuleId::kNone) return (void)message.note(Kind::kOtherIsRaised, program[raiser].span, {program[raiser].name, program[other].name, of.name});
+    }
+  });
+}
+
 bool same(const Rule& a, const Rule& b) {
   return a.level == b.level && a.mode == b.mode && a.condition == b.condition && program::same_effects(a, b);
 }
@@ -277,6 +314,7 @@ void diagnose_effects(Subject& subject) {
   diagnose_late(subject);
   diagnose_void(subject);
   diagnose_needless(subject);
+  diagnose_lowered_in_vain(subject);
   diagnose_duplicates(subject);
   diagnose_self_defeating(subject);
 }

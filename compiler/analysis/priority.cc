@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "compiler/analysis/satisfier.h"
@@ -61,6 +62,7 @@ class PriorityQuestions {
     source::Span place;
     Nodes others;           // the first ones, which the message names
     std::size_t count = 0;  // of all others
+    bool partly = false;    // lines order other members of the two groups, so the message names members, not groups
   };
 
   [[nodiscard]] const program::Cell& strategy(std::uint32_t node) const { return program_.cells[first_ + node]; }
@@ -117,6 +119,10 @@ class PriorityQuestions {
     said_[low][high] = true;
     if (standard_[second] && !standard_[first]) std::swap(first, second);
     const source::Span place = standard_[second] ? meeting(first, second) : strategy(second).declared;
+    if (partly_settled(unit_[first], unit_[second])) {
+      unsettled_.push_back({second, place, {first}, 1, true});
+      return;
+    }
     const auto [told, fresh] = unsettled_at_.try_emplace({unit_[second], place.file, place.begin}, unsettled_.size());
     if (fresh) unsettled_.push_back({second, place, {}});
     Unsettled& unsettled = unsettled_[told->second];
@@ -132,13 +138,46 @@ class PriorityQuestions {
     return one.file == other.file && other.begin < one.begin ? one : other;
   }
 
+  [[nodiscard]] bool settled(std::uint32_t a, std::uint32_t b) const { return below_[a][b] || below_[b][a]; }
+  [[nodiscard]] Nodes members(std::uint32_t unit) const {
+    const auto [begin, end] = std::equal_range(unit_.begin(), unit_.end(), unit);
+    Nodes found(static_cast<std::size_t>(end - begin));
+    std::iota(found.begin(), found.end(), static_cast<std::uint32_t>(begin - unit_.begin()));
+    return found;
+  }
+  [[nodiscard]] bool partly_settled(std::uint32_t unit, std::uint32_t other) const {
+    const Nodes some = members(unit), others = members(other);
+    return std::ranges::any_of(some, [&](std::uint32_t a) { return std::ranges::any_of(others, [&](std::uint32_t b) { return settled(a, b); }); });
+  }
+
+  /// The members of `node`'s group that nothing orders against some member of the group of `other`.
+  [[nodiscard]] std::string unsettled_members(std::uint32_t node, std::uint32_t other) const {
+    const Nodes others = members(unit_[other]);
+    std::vector<std::string_view> names;
+    for (const std::uint32_t a : members(unit_[node])) {
+      const bool open = std::ranges::any_of(others, [&](std::uint32_t b) { return !settled(a, b) && wanted_together(a, b); });
+      if (open) names.emplace_back(strategy(a).name);
+    }
+    return diagnostics::listed(names, kShown);
+  }
+
+  void report_members(const Unsettled& pair) {
+    const std::uint32_t other = pair.others.front();
+    auto message = subject_.diagnostics.report(Kind::kUnsettledPriority, pair.place, {unsettled_members(pair.at, other), unsettled_members(other, pair.at)});
+    message.note(Kind::kNameDeclaredHere, strategy(other).declared, {model::declared_name(strategy(other).name)});
+  }
+
   void report() {
     const auto name = [this](std::uint32_t node) { return model::declared_name(strategy(node).name); };
     for (const Unsettled& pair : unsettled_) {
+      if (pair.partly) {
+        report_members(pair);
+        continue;
+      }
       std::vector<std::string_view> others;
       for (const std::uint32_t other : pair.others) others.push_back(name(other));
       others.resize(pair.count);   // the rest is only counted
-      auto message = subject_.diagnostics.report(Kind::kUnsettledPriority, pair.place, {name(pair.at), diagnostics::listed(others, kShown)});
+      auto message = subject_.diagnostics.report(Kind::kUnsettledPriority, pair.place, {"`" + std::string(name(pair.at)) + "`", diagnostics::listed(others, kShown)});
       if (pair.place != strategy(pair.at).declared) message.note(Kind::kNameDeclaredHere, strategy(pair.at).declared, {name(pair.at)});
       message.note(Kind::kNameDeclaredHere, strategy(pair.others.front()).declared, {others.front()});
     }

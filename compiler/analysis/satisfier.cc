@@ -1,6 +1,7 @@
 #include "compiler/analysis/satisfier.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
@@ -25,6 +26,13 @@ constexpr std::uint8_t kHigh = kRegionHigh | kRegionHighZero;
 /// seen from a lower certainty on may be seen at once.
 bool high_while_seen(const program::Program& program, CellId fact) {
   return program::thresholds(program[fact]).attended >= static_cast<float>(program.settings.firing);
+}
+
+/// What a timer that has run out says of a sighting that its condition demands, which has been so on the tick before as well.
+std::optional<Sightings> held_sighting(Sightings demanded) {
+  if ((demanded & ~kSeen) == 0) return kStillSeen;
+  if ((demanded & kSeen) == 0) return kUnseen;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -70,20 +78,26 @@ Satisfier::Satisfier(const program::Program& program, const Domains& domains, Co
   find_timed_events();
 }
 
-/// Finds `for` conditions over events, which never hold. Parts have smaller numbers than the conditions that contain them, so what is found
-/// for a part is known when its whole is examined.
+/// Finds `for` conditions over events, which never hold, and what the others say of sightings. Parts have smaller numbers than the conditions
+/// that contain them, so what is found for a part is known when its whole is examined.
 void Satisfier::find_timed_events() {
   const auto sightings = static_cast<std::uint32_t>(program_.cells.size());
   for (std::uint32_t i = 0; i < program_.conds.size(); ++i) {
     const Cond& cond = program_.conds[i];
     if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
     const std::vector<Restriction> each = demands(cond.children.front(), 0).each;
-    const bool moment = std::any_of(each.begin(), each.end(), [&](const Restriction& demand) {
-      const bool sighting = demand.variable >= sightings && demand.variable < sightings + program_.facts;
-      return sighting && (demand.allowed == kJustSeen || demand.allowed == kJustLost);
+    const auto is_sighting = [&](const Restriction& demand) { return demand.variable >= sightings && demand.variable < sightings + program_.facts; };
+    const bool moment = std::ranges::any_of(each, [&](const Restriction& demand) {
+      return is_sighting(demand) && (demand.allowed == kJustSeen || demand.allowed == kJustLost);
     });
     begin(0);   // undoes the assumptions
-    if (!moment) continue;
+    if (!moment) {
+      for (const Restriction& demand : each) {
+        const auto held = is_sighting(demand) ? held_sighting(demand.allowed) : std::nullopt;
+        if (held) held_[CondId{i}].push_back({demand.variable, *held});
+      }
+      continue;
+    }
     timed_events_.push_back(CondId{i});
     values_[timer_of(CondId{i})] = kTimerFalse;
   }
@@ -180,6 +194,12 @@ bool Satisfier::assume_leaf(Goal goal) {
   return restrict_to(asked.variable, goal.wanted ? asked.allowed : static_cast<std::uint8_t>(~asked.allowed));
 }
 
+bool Satisfier::assume_held(CondId timer) {
+  const auto held = held_.find(timer);
+  if (held == held_.end()) return true;
+  return std::ranges::all_of(held->second, [this](const Restriction& one) { return restrict_to(one.variable, one.allowed); });
+}
+
 /// Assumes a goal and everything that follows from it directly. Goals that leave a choice go to `open_`.
 bool Satisfier::assume(Goal first) {
   pending_.assign(1, first);
@@ -202,7 +222,7 @@ bool Satisfier::assume(Goal first) {
         for (const CondId part : cond.children) pending_.push_back({part, goal.wanted});
         break;
       case Cond::Op::kFor:
-        if (!assume_leaf(goal)) return false;
+        if (!assume_leaf(goal) || (goal.wanted && !assume_held(goal.condition))) return false;
         if (goal.wanted || cond.duration_us == 0) pending_.push_back({cond.children.front(), goal.wanted});
         break;
       default:

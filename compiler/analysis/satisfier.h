@@ -5,13 +5,15 @@
 // - at most one member of an exclusive group is high, and, among facts that are seen only while they are high, at most one is seen;
 // - at most one strategy runs;
 // - a fact's sighting limits its certainty, and its certainty the sighting;
-// - a condition that has held for a while holds now; an event never holds for a while;
+// - a condition that has held for a while holds now, and held on the tick before; an event never holds for a while, nor does it come for
+//   what has been seen for a while;
 // - two perceived facts that no readings make certain at once are not both high, or both seen (a host that gives such facts itself can
 //   make them so).
 // It knows nothing of earlier ticks, so `kYes` means "it cannot be ruled out".
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -91,6 +93,7 @@ class Satisfier {
   void begin(std::uint32_t level);
   [[nodiscard]] bool assume(Goal goal);
   [[nodiscard]] bool assume_leaf(Goal goal);
+  [[nodiscard]] bool assume_held(program::CondId timer);
   [[nodiscard]] bool restrict_to(std::uint32_t variable, std::uint8_t allowed);
   [[nodiscard]] bool narrow(std::uint32_t variable, std::uint8_t allowed);
   [[nodiscard]] bool couple(std::uint32_t fact);
@@ -133,6 +136,7 @@ class Satisfier {
   std::vector<Goal> pending_;
   std::vector<Choice> choices_;
   std::vector<program::CondId> timed_events_;   // ascending
+  std::map<program::CondId, std::vector<Restriction>> held_;   // by `for` condition: what it demands of sightings beyond its part
   bool control_level_ = false;
   std::size_t most_parts_ = kAllParts;   // wider conditions are taken to demand nothing
   std::uint64_t steps_ = 0;

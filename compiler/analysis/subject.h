@@ -103,6 +103,10 @@ struct Demands;
 /// A cell that must be as `demands` says and that `rule` makes otherwise, if there is one. (In effects.cc.)
 [[nodiscard]] std::optional<program::CellId> undone(const Subject& subject, const Demands& demands, const program::Rule& rule);
 
+class Satisfier;
+/// Adds a note to a message about two rules that disagree if they can meet only at an event, or at two at once. (In event_notes.cc.)
+void note_events(const Subject& subject, Satisfier& satisfier, const program::Rule& a, const program::Rule& b, diagnostics::Builder& message);
+
 // The questions, each in a file of its own kind; they report in this order.
 void diagnose_cells(Subject& subject);       ///< cells.cc: never set, read, seen, wanted; thresholds; `keep`
 void diagnose_strategies(Subject& subject);  ///< cells.cc

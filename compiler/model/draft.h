@@ -149,6 +149,7 @@ struct Draft {
   std::unordered_map<std::uint64_t, source::Span> field_spans;  // of rows written out: see field_key
   std::unordered_map<std::string_view, bool> unknown_names;  // reported already
   std::size_t effects = 0;                          // of all rules
+  std::map<std::pair<SetId, SetId>, SetId> other_owner_told;   // by two sets of the same names: which is to be indexed with the other
   bool library_missing = false;                     // reported once; what follows from it is not reported
   bool said_no_levels = false;
   bool said_no_exits = false, said_no_methods = false;
@@ -258,6 +259,7 @@ bool next_combination(std::vector<std::size_t>& places, Size size) {
 
 void declare_sets(Draft& draft);          // sets.cc
 void declare_levels(Draft& draft);        // settings.cc
+void report_no_levels(Draft& draft, source::Span at);   // settings.cc
 void declare_all(Draft& draft);           // declare.cc: cells, groups, relations, maps, in order of the statements
 void declare_map(Draft& draft, const syntax::Map& map);   // maps.cc
 void choose_exits(Draft& draft);          // maps.cc: which sets name the exits and the methods of roads

@@ -89,7 +89,11 @@ Operand References::evaluate_argument(const Argument& argument, SetId set, std::
   const std::string& given = draft_.model.sets[index(operand.member.set)].name;
   auto message = draft_.diagnostics.report(table ? Kind::kArgumentOfWrongSet : Kind::kIndexOfWrongSet, at,
                                            {draft_.name_of(operand.member), given, owner, wanted});
-  if (!table && owner == wanted) message.note(Kind::kOwnMembers, draft_.model.sets[index(set)].declared, {owner, given});
+  if (table || owner != wanted) return {};
+  // Both ways would make two groups of each other's members, so all messages about two sets give the advice of the first.
+  const SetId given_set = operand.member.set;
+  const SetId advised = draft_.other_owner_told.try_emplace(std::minmax(set, given_set), set).first->second;
+  if (advised == set) message.note(Kind::kOwnMembers, draft_.model.sets[index(set)].declared, {owner, given});
   return {};
 }
 

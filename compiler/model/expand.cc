@@ -39,7 +39,7 @@ class RuleReader {
       return true;
     }
     if (levels.empty()) {
-      if (!std::exchange(draft_.said_no_levels, true) && !draft_.library_missing) draft_.diagnostics.report(Kind::kNoLevels, rule_.level.span);
+      if (!std::exchange(draft_.said_no_levels, true) && !draft_.library_missing) report_no_levels(draft_, rule_.level.span);
       return false;
     }
     const std::vector<std::string_view> candidates(levels.begin(), levels.end());
@@ -122,7 +122,7 @@ void expand_rules(Draft& draft) {
     if (draft.exhausted) return;
     const auto [first, fresh] = known.emplace(rule.name.text, rule.name.span);
     if (!fresh) {
-      draft.diagnostics.report(Kind::kRuleTwice, rule.name.span, {rule.name.text}).note(Kind::kFirstDeclaredHere, first->second);
+      draft.diagnostics.report(Kind::kRuleTwice, rule.name.span, {rule.name.text}).note(Kind::kFirstDeclaredHere, first->second).note(Kind::kRuleNamesShared, {});
     }
     RuleReader(draft, tree, rule).run();
   });

@@ -44,6 +44,7 @@ class PriorityReader {
 
  private:
   using Nodes = std::vector<std::uint32_t>;
+  struct Joint { source::Span span; bool first_is_group, second_is_group; };
 
   void read_line(const syntax::Tree& tree, const syntax::Priority& line) {
     std::vector<Binder> binders;
@@ -116,7 +117,7 @@ class PriorityReader {
     const auto joint = static_cast<std::uint32_t>(after_.size());
     after_.emplace_back();
     before_.push_back(0);
-    joints_.push_back({span});
+    joints_.push_back({span, first.size() > 1, second.size() > 1});
     for (const std::uint32_t node : first) add_edge(node, joint);
     for (const std::uint32_t node : second) add_edge(joint, node);
     draft_.model.precedences.push_back({cells(first), cells(second)});
@@ -193,31 +194,32 @@ class PriorityReader {
     report_circle(circle);
   }
 
-  /// The name of a strategy, or that of its group if the circle goes through the group only once.
-  [[nodiscard]] std::string circle_name(const Nodes& circle, std::uint32_t node) const {
+  [[nodiscard]] const Joint& joint_at(std::uint32_t node) const { return joints_[node - strategies_.size()]; }
+
+  /// The name of a strategy, or that of its group if the circle goes through the group only once and both lines there name the group.
+  [[nodiscard]] std::string circle_name(const Nodes& circle, std::size_t place) const {
+    const std::uint32_t node = circle[place];
+    const bool group = joint_at(circle[(place + circle.size() - 1) % circle.size()]).second_is_group && joint_at(circle[(place + 1) % circle.size()]).first_is_group;
     const std::string_view name = draft_.model[strategies_[node]].name;
     const auto visits = std::count_if(circle.begin(), circle.end(), [&](std::uint32_t other) { return !is_joint(other) && unit_[other] == unit_[node]; });
-    return std::string(visits > 1 ? name : declared_name(name));
+    return std::string(visits > 1 || !group ? name : declared_name(name));
   }
 
   /// Reported at a line of the user's, if one is part of the circle.
   void report_circle(const Nodes& circle) {
     std::string text;
     source::Span at;
-    for (const std::uint32_t node : circle) {
-      if (!is_joint(node)) text += circle_name(circle, node) + " > ";
-      else if (!at.known() || draft_.standard(at)) at = joints_[node - strategies_.size()].span;
+    for (std::size_t i = 0; i < circle.size(); ++i) {
+      if (!is_joint(circle[i])) text += circle_name(circle, i) + " > ";
+      else if (!at.known() || draft_.standard(at)) at = joint_at(circle[i]).span;
     }
-    text += circle_name(circle, circle.front());
+    text += circle_name(circle, 0);
     auto builder = draft_.diagnostics.report(Kind::kPriorityCycle, at, {fmt::format("`{}`", text)});
     for (std::size_t i = 1; i < circle.size(); ++i) {
       if (!is_joint(circle[i])) continue;
-      builder.note(Kind::kPriorityHere, joints_[circle[i] - strategies_.size()].span,
-                   {circle_name(circle, circle[i - 1]), circle_name(circle, circle[(i + 1) % circle.size()])});
+      builder.note(Kind::kPriorityHere, joint_at(circle[i]).span, {circle_name(circle, i - 1), circle_name(circle, (i + 1) % circle.size())});
     }
   }
-
-  struct Joint { source::Span span; };
 
   Draft& draft_;
   std::vector<CellId> strategies_;       // by node; joints come after them

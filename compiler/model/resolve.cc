@@ -22,7 +22,7 @@ Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, Stand
   if (draft.model.levels.empty()) {
     // A knowledge base without levels has nothing to run; it needs the control level only if it has a strategy.
     if (!draft.said_no_levels && !draft.library_missing && !draft.model.priority.empty()) {
-      diagnostics.report(diagnostics::Kind::kNoLevels, draft.model[draft.model.priority.front()].declared);
+      report_no_levels(draft, draft.model[draft.model.priority.front()].declared);
     }
     draft.model.levels.emplace_back("control");
     draft.model.level_spans.emplace_back();

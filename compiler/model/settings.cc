@@ -9,6 +9,7 @@
 
 #include "compiler/model/draft.h"
 #include "compiler/model/references.h"
+#include "compiler/model/standard_names.h"
 #include "compiler/model/units.h"
 #include "compiler/syntax/tree_text.h"
 
@@ -16,6 +17,8 @@ namespace kb::model {
 namespace {
 
 using diagnostics::Kind;
+
+constexpr std::size_t kLevelsNamed = 8;   // in the advice to declare levels
 
 // ---- settings
 //
@@ -176,6 +179,20 @@ class SettingsReader {
 
 }  // namespace
 
+void report_no_levels(Draft& draft, source::Span at) {
+  std::vector<std::string_view> used;
+  draft.each<syntax::Rule>([&](const auto&, const auto&, const syntax::Rule& rule) {
+    const bool known = std::find(used.begin(), used.end(), rule.level.text) != used.end();
+    if (!known && rule.level.text != "control" && used.size() < kLevelsNamed) used.push_back(rule.level.text);
+  });
+  const bool standard = !used.empty() && std::all_of(used.begin(), used.end(), [&](std::string_view level) {
+    return draft.library != nullptr && draft.library->file_with_member(StandardNames::kLevels, level);
+  });
+  if (used.empty()) used.emplace_back("plan");
+  const std::string line = fmt::format("`levels {} > control`{}", fmt::join(used, " > "), used.size() > 1 ? ", or these in another order, the highest first" : "");
+  draft.diagnostics.report(Kind::kNoLevels, at, {standard ? "`import std.basics`, or " + line : line});
+}
+
 void declare_levels(Draft& draft) {
   const syntax::Levels* first = nullptr;
   draft.each<syntax::Levels>([&](const auto&, const syntax::Statement& statement, const syntax::Levels& levels) {
@@ -184,7 +201,8 @@ void declare_levels(Draft& draft) {
                                    [](const syntax::Name& a, const syntax::Name& b) { return a.text == b.text; });
       if (same) return;
       draft.diagnostics.report(Kind::kLevelsTwice, statement.span)
-          .note(Kind::kFirstDeclaredHere, first->names.front().span);
+          .note(Kind::kFirstDeclaredHere, first->names.front().span)
+          .note(Kind::kLevelsOnce, {});
       return;
     }
     if (levels.names.empty()) return;

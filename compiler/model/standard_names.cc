@@ -57,6 +57,8 @@ void StandardNames::take(const syntax::Statement& statement, std::string_view fi
       name(item.name);
       if (item.shape == syntax::Declaration::Item::Shape::kMembers) members(item.name, item.names);
     }
+  } else if (const auto* levels = std::get_if<syntax::Levels>(&statement.node)) {
+    for (const syntax::Name& level : levels->names) file_of_.emplace(std::string(kLevels) + "." + std::string(level.text), file);
   } else if (const auto* relation = std::get_if<syntax::Relation>(&statement.node)) {
     name(relation->name);
   } else if (const auto* table = std::get_if<syntax::Table>(&statement.node)) {

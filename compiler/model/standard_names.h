@@ -20,6 +20,8 @@ namespace kb::model {
 /// Reads the library's files when first asked, so that only a program with a mistake pays for it.
 class StandardNames {
  public:
+  static constexpr std::string_view kLevels = "levels";   ///< the levels are found like members of a set of this name, which is a keyword
+
   /// `library` is the folder that holds `std/`; `files` must outlive this.
   StandardNames(std::string_view library, const source::FileSystem& files) : library_(library), files_(files) {}
 

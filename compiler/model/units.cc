@@ -42,6 +42,26 @@ constexpr std::array kUnits = {
     Unit{"%", "", 1, 100},
 };
 
+/// Names of units elsewhere, some of which are no slips of the right one but of another.
+struct Alias { std::string_view name, unit; };
+constexpr std::array kAliases = {
+    Alias{"mps", "m/s"},       Alias{"cmps", "cm/s"},  Alias{"mmps", "mm/s"},    Alias{"kmh", "km/h"},   Alias{"kmph", "km/h"},
+    Alias{"kph", "km/h"},      Alias{"dps", "deg/s"},  Alias{"degps", "deg/s"},  Alias{"radps", "rad/s"}, Alias{"rads", "rad/s"},
+    Alias{"degrees", "deg"},   Alias{"degree", "deg"}, Alias{"radians", "rad"},  Alias{"radian", "rad"}, Alias{"metres", "m"},
+    Alias{"metre", "m"},       Alias{"meters", "m"},   Alias{"meter", "m"},      Alias{"seconds", "s"},  Alias{"second", "s"},
+    Alias{"secs", "s"},        Alias{"sec", "s"},      Alias{"minutes", "min"},  Alias{"mins", "min"},   Alias{"hours", "h"},
+    Alias{"msec", "ms"},       Alias{"usec", "us"},    Alias{"percent", "%"},    Alias{"mph", ""},       Alias{"rpm", ""},
+    Alias{"rps", ""},
+};
+
+/// The unit that was meant; nothing if the language has no such unit.
+std::optional<std::string> meant_unit(std::string_view name, std::span<const std::string_view> units) {
+  for (const Alias& alias : kAliases) {
+    if (alias.name == name) return alias.unit.empty() ? std::nullopt : std::optional<std::string>(alias.unit);
+  }
+  return diagnostics::closest(name, units);
+}
+
 const Unit* find_unit(std::string_view name) {
   for (const Unit& unit : kUnits) {
     if (unit.name == name) return &unit;
@@ -63,7 +83,7 @@ std::optional<Quantity> to_si(const syntax::Number& number, diagnostics::Diagnos
     return Quantity{number.value * unit->multiply / unit->divide, unit->si};
   }
   const std::vector<std::string_view> candidates = unit_names();
-  const auto better = diagnostics::closest(number.unit.text, candidates);
+  const auto better = meant_unit(number.unit.text, candidates);
   auto message = diagnostics.report(Kind::kUnknownUnit, number.unit.span, {number.unit.text});
   if (better) message.suggest(better);
   else message.note(Kind::kUnitsAre, {}, {fmt::format("`{}`", fmt::join(candidates, "`, `"))});

@@ -32,7 +32,7 @@ std::string_view singular(TokenKind declaration) {
 void SyntaxError::report() {
   if (stream_.is_spoilt() || stream_.is_reported()) return;
   const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_late_of() || is_trailing_comma() ||
-                     is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() || is_names_as_set() || is_map_line() ||
+                     is_row_without_fields() || is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() || is_names_as_set() || is_map_line() ||
                      is_rule_head() || is_percept() || is_condition() || is_effect() || is_route() || is_road() || is_order() ||
                      is_quoted_name() || is_missing_comma() || is_type() || is_member_value() || is_unknown_attribute() || is_word_as_name();
   if (!known) report_unexpected();
@@ -103,6 +103,16 @@ bool SyntaxError::is_late_of() {
 bool SyntaxError::is_trailing_comma() {
   if (last_.kind != T::kComma || !(is_right(kind_) || at_end())) return false;
   return say(Kind::kTrailingComma, last_.span);
+}
+
+// `row x in R()`, `row x in R`
+bool SyntaxError::is_row_without_fields() {
+  if (statement_ != T::kRow) return false;
+  const bool empty = last_.kind == T::kLeftParen && kind_ == T::kRightParen && stream_.behind(3).kind == T::kIn;
+  const bool none = last_.kind == T::kIdentifier && stream_.behind(2).kind == T::kIn && (at_end() || found_.begins_statement);
+  if (!empty && !none) return false;
+  const source::Span relation = empty ? stream_.behind(2).span : last_.span;
+  return say(Kind::kRowWithoutFields, empty ? source::join(relation, found_.span) : relation, {text(relation)});
 }
 
 bool SyntaxError::is_empty_list() {

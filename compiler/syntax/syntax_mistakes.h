@@ -34,6 +34,7 @@ class SyntaxError {
   [[nodiscard]] bool is_name_behind_attributes();
   [[nodiscard]] bool is_late_of();
   [[nodiscard]] bool is_trailing_comma();
+  [[nodiscard]] bool is_row_without_fields();
   [[nodiscard]] bool is_empty_list();
   [[nodiscard]] bool is_range();
   [[nodiscard]] bool is_fuzzy();
