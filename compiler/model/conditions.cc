@@ -262,9 +262,11 @@ Outcome Conditions::report_many(const Pattern& pattern, const Operand& operand) 
   const std::string_view text = references_.text(pattern.ref);
   const Entity* named = draft_.names.find(text);
   if (named != nullptr && named->twice) return Outcome::kBroken;   // perhaps the other one is meant
-  const std::string name = (pattern.sat ? "sat " : "") + std::string(text);
+  const auto cells = references_.cells_of(operand);
+  const bool satellites = cells && !cells->empty() && draft_.model[cells->front()].kind == CellKind::kSatellite;   // `sat` would be a mistake
+  const std::string name = (pattern.sat && !satellites ? "sat " : "") + std::string(text);
   const bool of_exits = of_road_ && named != nullptr && named->kind == Entity::Kind::kGroup && draft_.model.groups[named->id].dimensions == std::vector{draft_.exits};
-  const std::string one = of_exits ? fmt::format("`{}[exit]`", name) : fmt::format("`any {0}` or `no {0}`, or index it", name);
+  const std::string one = of_exits ? fmt::format("`{}[exit]`", name) : fmt::format("`any {0}` or `no {0}`, or {1}", name, operand.kind == Operand::Kind::kRelation ? "name a row" : "index it");
   draft_.diagnostics.report(Kind::kWholeGroup, references_.span(pattern.ref), {text, references_.describe(operand), one});
   return Outcome::kBroken;
 }

@@ -67,8 +67,8 @@ constexpr std::array kCommands = {
             "kbc explain --markdown > diagnostics.md         # all of them, as a page\n",
             Shared::kMessages, setup_explain},
     Command{"expand", "Print the core rules that a knowledge base becomes",
-            "Shows what the engine does, in the notation of the language: every rule for each of its instances, names in full, and "
-            "exclusive groups and `reset` as the writes that they stand for. It is to be read, and cannot be compiled again.",
+            "Shows what the engine does, in the notation of the language: every rule for each of its instances, with names in "
+            "full. Exclusive groups and `reset` stand as they are written. It is to be read, and cannot be compiled again.",
             "kbc expand mission.kb                           # everything\n"
             "kbc expand mission.kb --rule enter              # the instances of one rule\n"
             "kbc expand mission.kb --level passage           # one level\n"
