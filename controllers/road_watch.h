@@ -228,12 +228,12 @@ class RoadWatch {
     drove_ = drove_ || !rests;
     waits_at_line_ = keeps_place_ && met_line_ && (rests || waits_at_line_);
     begins_on_road_ = keeps_place_ && (rests || begins_on_road_);
-    if (!drove_ || rest_s_ < kRests_s || (keeps_place_ && (crosses_ || road_ != nullptr || met_line_))) return;
-    forget_place(pilot);
+    if (rest_s_ < kRests_s || (keeps_place_ && (crosses_ || road_ != nullptr || met_line_))) return;
+    if (drove_) forget_place(pilot);
     set_down_ = drove_ = false;
     without_line_m_ = 0.0f;
     obstacle_sight_.rest();
-    if (unread_s_ < kReadingLasts_s) return;
+    if (unread_s_ < kReadingLasts_s) return;   // it still reads the sign
     sign_ = {};
     at_ = At::kNowhere;
   }

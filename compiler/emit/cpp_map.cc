@@ -108,7 +108,7 @@ std::string cpp_map(const model::Model& model, const program::Program& program, 
       "inline constexpr mts::Piece kMapPieces[] = {{   // heading in rad, length in m\n{1}}};\n"
       "inline constexpr mts::MapRoad kMapRoads[] = {{\n{2}}};\n\n"
       "/// The road that leaves a landmark by one of its sides; null if no leg leads along it. O(roads).\n"
-      "[[nodiscard]] constexpr const mts::MapRoad* find_road(const char* from, const char* exit) noexcept {{\n"
+      "[[nodiscard]] inline const mts::MapRoad* find_road(const char* from, const char* exit) noexcept {{\n"
       "  for (const mts::MapRoad& road : kMapRoads) {{\n    if (mts::same_text(road.from, from) && mts::same_text(road.exit, exit)) return &road;\n  }}\n"
       "  return nullptr;\n}}\n\n"
       "/// The road that the robot's present leg leads along: the one that it is on, or, from the sign of a crossing on, the one by which it\n"

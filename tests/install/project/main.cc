@@ -4,7 +4,7 @@
 #define X 7   // a macro that the project has before it includes anything of Waymark, and wants to have afterwards
 
 #include <waymark/controllers/any_controller.h>
-#include <waymark/controllers/pilot.h>
+#include <waymark/controllers/lookout.h>
 #include <waymark/runtime/compact_mind.h>
 #include <waymark/runtime/image_mind.h>
 #include "bumper.kb.h"
@@ -89,6 +89,10 @@ bool knows_its_roads() {
   constexpr mts::ControlLine stands = {"stand", nullptr, 0};
   pilot.choose(&stands, roads.road());
   static_cast<void>(pilot.step({}, 0.02f));
+  mts::Lookout<route1::Knowledge> lookout({}, route1::landmarks());
+  lookout.step(pilot, {.landmark = "LM5"}, 0.02f);
+  lookout.write(facts);
+  if (!lookout.knows("LM5") || facts.Line != 0.0f || route1::find_road("LM5", "W") == nullptr) return false;
   return pilot.drives() && roads.road() != nullptr && mts::same_text(roads.road()->from, "LM5") && mts::task_along(roads, {}).pieces == 1 && mts::task_across(roads).exit_heading_rad > 3.14f;
 }
 

@@ -332,6 +332,19 @@ TEST(Lookout, ARobotThatRestsMayHaveBeenCarriedUnlessItIsNever) {
   }
 }
 
+TEST(Lookout, ASignThatIsReadNoMoreIsForgottenAtRest) {
+  Ride ride;
+  ride.drive(&kFollows, nullptr);
+  ride.sign = {.landmark = "Arch", .exit = "W"};
+  ride.go(0.15f, 0.5f);
+  ride.drive(nullptr, nullptr);
+  ride.go(0.0f, 5.0f);
+  EXPECT_GT(ride.facts.Arch, 0.8f) << "it stands before the sign";
+  ride.sign = {};
+  ride.go(0.0f, 1.0f);
+  EXPECT_LT(ride.facts.Arch, 0.0f) << "it was carried off";
+}
+
 TEST(Lookout, APlaceThatWasPutIsKeptUntilTheMissionAndALegKeepsIt) {
   Ride ride;
   ride.drive(nullptr, nullptr);
