@@ -32,8 +32,8 @@ std::string_view singular(TokenKind declaration) {
 void SyntaxError::report() {
   if (stream_.is_spoilt() || stream_.is_reported()) return;
   const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_late_of() || is_trailing_comma() ||
-                     is_row_without_fields() || is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() || is_names_as_set() || is_map_line() ||
-                     is_rule_head() || is_percept() || is_condition() || is_effect() || is_route() || is_road() || is_order() ||
+                     is_other_bracket() || is_row_without_fields() || is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() ||
+                     is_names_as_set() || is_map_line() || is_rule_head() || is_percept() || is_condition() || is_effect() || is_route() || is_road() || is_order() ||
                      is_quoted_name() || is_missing_comma() || is_type() || is_member_value() || is_unknown_attribute() || is_word_as_name();
   if (!known) report_unexpected();
 }
@@ -179,6 +179,14 @@ bool SyntaxError::is_unknown_statement() {
   diagnostics_.report(Kind::kUnknownStatement, found_.span, {diagnostics::beginning(text())})
       .suggest(setting ? std::optional("set " + std::string(text())) : diagnostics::closest(text(), statement_words()));
   return true;
+}
+
+// `rule turn(s in Side)`, `table other[Side]`
+bool SyntaxError::is_other_bracket() {
+  const bool rule = statement_ == T::kRule && kind_ == T::kLeftParen && wants(T::kAt), table = statement_ == T::kTable && kind_ == T::kLeftBracket;
+  if (last_.kind != T::kIdentifier || !(rule || table)) return false;
+  const std::string name = (rule ? "rule " : "table ") + std::string(text(last_.span));
+  return say(Kind::kOtherWord, found_.span, {name + (rule ? "(" : "["), name + (rule ? "[" : "(")});
 }
 
 // `set Side { left, right }`

@@ -41,6 +41,7 @@ class SyntaxError {
   [[nodiscard]] bool is_bracket();
   [[nodiscard]] bool is_unknown_statement();
   [[nodiscard]] bool is_names_as_set();
+  [[nodiscard]] bool is_other_bracket();
   [[nodiscard]] bool is_map_line();
   [[nodiscard]] bool is_rule_head();
   [[nodiscard]] bool is_percept();
