@@ -12,7 +12,8 @@ namespace mts {
 template <std::size_t kElements>
 class Liveness {
  public:
-  /// One control period. `way_m`: how far the sensor has moved, by driving or turning. `tells`: the values could have been others, as those of range finders of which some see something.
+  /// One control period. `way_m`: how far the sensor has moved, by driving or turning. `tells`: the values could have been others, as those of
+  /// range finders of which some see something.
   constexpr void step(bool known, const float (&elements)[kElements], bool tells, float way_m, float dt_s) noexcept {
     known_ = known;
     if (!known || !tells || !same(elements)) {

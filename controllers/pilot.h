@@ -96,8 +96,14 @@ class Pilot {
   /// What a controller is for.
   [[nodiscard]] static constexpr bool is_manoeuvre(ControllerId id) noexcept { return id == Id::kTurnOnLine || id == Id::kTurnByWalls || id == Id::kTurnByCompass; }
   [[nodiscard]] static constexpr bool follows(ControllerId id) noexcept { return !is_manoeuvre(id) && id != Id::kStand && id != Id::kRoundObstacle && id != Id::kTurnRound && id != Id::kLookRound; }
-  /// Whether a turn is to end facing back along the road, as the robot faces along it or the leg leads back already.
-  [[nodiscard]] bool turns_back() const noexcept { return way_back() != nullptr || !place_.faces_back(); }
+  /// Where a robot is to face that turns round on its road: back along it, or along it if it faces back already and the leg does not lead there.
+  /// False: it is in a crossing, on an unknown road, or faces neither way.
+  [[nodiscard]] bool is_to_face(float& heading_rad) const noexcept {
+    if (crossed_ || !(place_.faces_along() || place_.faces_back())) return false;
+    const bool turns_back = way_back() != nullptr || !place_.faces_back();
+    heading_rad = wrapped_angle(place_.spot().heading_rad + (turns_back ? kPi : 0.0f));
+    return true;
+  }
   /// For programs with controllers of their own: to be called once, where one of them has driven through a crossing and stands on the line out.
   void leave_crossing() noexcept { crossed_ = left_ = true; }
   /// For robots that begin in the middle of a road, `along_m` from the middle of the crossing where it begins. They need a compass.
@@ -111,6 +117,8 @@ class Pilot {
     set_down_ = true;
     set_down_rad_ = heading_rad;
   }
+  /// Whether it was, and has not entered a crossing since.
+  [[nodiscard]] bool is_set_down() const noexcept { return set_down_; }
   /// The robot was carried: it is on an unknown road, and what was interrupted is not continued. The controller that drives begins afresh, so
   /// call it once.
   void forget_place() noexcept {
@@ -239,10 +247,10 @@ class Pilot {
   /// To face back along the road, or along it if the robot faces back already; near a bend, and if the line gives another angle, by the angle.
   [[nodiscard]] Task round() const noexcept {
     Task task;
-    if (crossed_ || !(place_.faces_along() || place_.faces_back())) return task;
     const ControlArgument* angle = find_argument("angle");
     if (angle != nullptr && angle->number != 180.0f) return task;
-    task.course[task.pieces++] = {wrapped_angle(place_.spot().heading_rad + (turns_back() ? kPi : 0.0f)), 1.0f};
+    Piece faced{0.0f, 1.0f};
+    if (is_to_face(faced.heading_rad)) task.course[task.pieces++] = faced;
     return task;
   }
   void follow_road(const Senses& senses) noexcept {

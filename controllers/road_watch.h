@@ -62,6 +62,7 @@ class RoadWatch {
     hear_range(pilot, dt);
     without_line_m_ = line_.now() || at_ != At::kApproach ? 0.0f : without_line_m_ + (moves_ && !in_hall() ? way_m_ : 0.0f);
     rest(pilot, dt);
+    set_down_ = pilot.is_set_down();
   }
 
   // ---- certainties of facts, from -1 to 1; 0: nothing is known
@@ -151,15 +152,14 @@ class RoadWatch {
     due_ = passed_end_ = false;
     if (road_ == nullptr) return;
     spot_ = place.spot();
-    const float size = as_.out(1.0f, "m"), along_m = spot_.along_m, end_m = end_of_course_m(*road_, as_.out(body_));
-    along_m_ = in_m(along_m) - 0.5f * body_.crossing_m;
-    to_bend_m_ = in_m(place.to_bend_m(along_m));
-    road_turned_rad_ = place.turned_rad(along_m);
-    const float drift_m = kDrift * (end_m - 0.5f * body_.crossing_m * size);
-    const float off_m = magnitude(spot_.left_m), to_end_m = magnitude(end_m - along_m - spot_.past_m);
-    due_ = !crosses_ && senses_.odometry_known && square_root(to_end_m * to_end_m + off_m * off_m) < kDue_m * size + drift_m;
-    passed_end_ = along_m + spot_.past_m - end_m > kPassedEnd_m * size + drift_m;
-    beside_road_m_ = in_m(off_m);
+    const float line_m = 0.5f * body_.crossing_m, road_m = in_m(length_m(*road_)) - 2.0f * line_m;   // from stop line to stop line
+    along_m_ = in_m(spot_.along_m) - line_m;
+    beside_road_m_ = in_m(magnitude(spot_.left_m));
+    to_bend_m_ = in_m(place.to_bend_m(spot_.along_m));
+    road_turned_rad_ = place.turned_rad(spot_.along_m);
+    const float past_end_m = along_m_ + in_m(spot_.past_m) - road_m, drift_m = kDrift * road_m;
+    due_ = !crosses_ && senses_.odometry_known && square_root(past_end_m * past_end_m + beside_road_m_ * beside_road_m_) < kDue_m + drift_m;
+    passed_end_ = past_end_m > kPassedEnd_m + drift_m;
   }
 
   /// A sensor that is stuck counts as silent. Without the range finders in front the robot drives blind.
@@ -191,9 +191,7 @@ class RoadWatch {
     if (id_ == ControllerId::kTurnRound) {
       round_rad_ = 0.0f;
       turned_back_ = true;
-      const OnRoad& place = pilot.place();
-      knows_way_back_ = !crosses_ && road_ != nullptr && (place.faces_along() || place.faces_back());
-      way_back_rad_ = wrapped_angle(spot_.heading_rad + (knows_way_back_ && !pilot.turns_back() ? 0.0f : kPi));
+      knows_way_back_ = pilot.is_to_face(way_back_rad_);
     }
   }
   [[nodiscard]] bool come_about() const noexcept {
@@ -212,7 +210,6 @@ class RoadWatch {
     sign_ = {};
     at_ = At::kNowhere;
     carried_s_ = kSaysCarried_s;
-    set_down_ = true;
   }
   void forget_place(Pilot& pilot) noexcept {
     pilot.forget_place();
@@ -229,8 +226,8 @@ class RoadWatch {
     waits_at_line_ = keeps_place_ && met_line_ && (rests || waits_at_line_);
     begins_on_road_ = keeps_place_ && (rests || begins_on_road_);
     if (rest_s_ < kRests_s || (keeps_place_ && (crosses_ || road_ != nullptr || met_line_))) return;
-    if (drove_) forget_place(pilot);
-    set_down_ = drove_ = false;
+    if (drove_ || pilot.is_set_down()) forget_place(pilot);
+    drove_ = false;
     without_line_m_ = 0.0f;
     obstacle_sight_.rest();
     if (unread_s_ < kReadingLasts_s) return;   // it still reads the sign
@@ -243,7 +240,7 @@ class RoadWatch {
       if (at_ != At::kApproach) sign_ = {};   // it crosses without a sign
       at_ = At::kCrossing;
       since_m_ = 0.0f;
-      set_down_ = turned_back_ = false;
+      turned_back_ = false;
     }
     if (leaves_ && at_ == At::kCrossing) {
       at_ = At::kLeaving;

@@ -88,8 +88,9 @@ class LastingQuestions {
 
   [[nodiscard]] static bool asks_that_it_is_not_high(const Demands& demands, CellId cell) {
     const auto at = std::lower_bound(demands.each.begin(), demands.each.end(), program::index(cell), [](const Restriction& r, std::size_t c) { return r.variable < c; });
-    return at != demands.each.end() && at->variable == program::index(cell) && (at->allowed & regions_of(program::Term::kHigh)) == 0;
+    return at != demands.each.end() && at->variable == program::index(cell) && rules_out_high(*at);
   }
+  [[nodiscard]] static bool rules_out_high(const Restriction& demand) { return (demand.allowed & regions_of(program::Term::kHigh)) == 0; }
 
   /// A rule that asks for one member of an exclusive group lowers no other.
   void count_clear(const Rule& rule, std::uint32_t group, const Demands& demands) {
@@ -104,7 +105,7 @@ class LastingQuestions {
       if (of_group(program::index(write.cell))) spared.insert(program::index(write.cell));
     }
     for (const Restriction& demand : demands.each) {
-      if (of_group(demand.variable) && (demand.allowed & regions_of(program::Term::kHigh)) == 0) spared.insert(demand.variable);
+      if (of_group(demand.variable) && rules_out_high(demand)) spared.insert(demand.variable);
     }
     ++clears_[group];
     for (const std::size_t cell : spared) ++spared_by_clears_[cell];

@@ -52,7 +52,8 @@ void Perception::put(std::shared_ptr<const Memory> memory, std::uint32_t exit, d
 // note [at rest]
 // Between two missions somebody may carry the robot to where the next one is to begin, and its wheels do not notice. So after two seconds
 // of rest it knows only what it senses, as after start-up: the sign that it reads now, but no road. A vehicle that takes orders is not
-// carried unless its host says so (mode MANUAL): it keeps its place on its road, or in its crossing, until the next order: see note [an order begins at the line].
+// carried unless its host says so (mode MANUAL): it keeps its place on its road, or in its crossing, until the next order: see note
+// [an order begins at the line].
 void Perception::rest(bool rests, float dt_s) {
   rest_s_ = rests ? rest_s_ + dt_s : 0.0f;
   waits_at_line_ = keeps_place_ && met_line_ && (rests || waits_at_line_);

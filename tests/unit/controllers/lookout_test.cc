@@ -28,6 +28,11 @@ class Ride {
     for (int i = 0; i < 5; ++i) senses.line[i] = dark == 5 || (dark == 1 && i == 2) ? 1.0f : 0.0f;
   }
   void drive(const ControlLine* line, const MapRoad* road) { pilot.choose(line, road); }
+  /// Follows the road from Dock to Arch, `along_m` from Dock.
+  void follow_road(float along_m) {
+    drive(&kFollows, &kByLine);
+    pilot.put(kByLine, along_m);
+  }
   /// Goes `metres` ahead in `time_s`.
   void go(float metres, float time_s) {
     const int periods = static_cast<int>(time_s / 0.02f + 0.5f);
@@ -50,8 +55,7 @@ class Ride {
   }
   /// Comes to the sign of Arch on the road from Dock, and on to its line.
   void come_to_arch() {
-    drive(&kFollows, &kByLine);
-    pilot.put(kByLine, 1.8f);
+    follow_road(1.8f);
     go(0.2f, 0.5f);
     sign = {.landmark = "Arch", .exit = "W", .closed = "N", .cross_by = "mark azimuth"};
     go(0.15f, 0.5f);
@@ -118,8 +122,7 @@ TEST(Lookout, ASignWithoutASideIsReadByTheCompassOnARoadThatNobodyKnows) {
 
 TEST(Lookout, ASignWithoutASideIsReadByTheRoad) {
   Ride ride;
-  ride.drive(&kFollows, &kByLine);
-  ride.pilot.put(kByLine, 2.2f);
+  ride.follow_road(2.2f);
   ride.sign = {.landmark = "Arch"};
   ride.go(0.15f, 0.4f);
   EXPECT_EQ(ride.facts.In.W, 0.9f);
@@ -212,8 +215,7 @@ TEST(Lookout, TracksAreThoseThatCanBeFollowedHere) {
 
 TEST(Lookout, DueIsWhereTheRoadEnds) {
   Ride ride;
-  ride.drive(&kFollows, &kByLine);
-  ride.pilot.put(kByLine, 1.5f);
+  ride.follow_road(1.5f);
   ride.go(0.5f, 1.5f);
   EXPECT_EQ(ride.facts.Due, -0.9f);
   ride.go(0.5f, 1.5f);
@@ -223,8 +225,7 @@ TEST(Lookout, DueIsWhereTheRoadEnds) {
 
 TEST(Lookout, ARobotThatHasComeAboutFacesBackAlongItsRoad) {
   Ride ride;
-  ride.drive(&kFollows, &kByLine);
-  ride.pilot.put(kByLine, 1.5f);
+  ride.follow_road(1.5f);
   ride.go(0.3f, 1.0f);
   ride.drive(&kComesAbout, &kByLine);
   ride.turn(0.9f * kPi);
@@ -238,8 +239,7 @@ TEST(Lookout, ARobotThatHasComeAboutFacesBackAlongItsRoad) {
 
 TEST(Lookout, WhatStandsOnTheTrackIsAnObstacleWhereverTheRobotFaces) {
   Ride ride;
-  ride.drive(&kFollows, &kByLine);
-  ride.pilot.put(kByLine, 1.0f);
+  ride.follow_road(1.0f);
   ride.go(0.3f, 1.0f);
   EXPECT_EQ(ride.facts.Obst, -0.9f);
   ride.senses.range_m[0] = 0.3f;
@@ -302,8 +302,7 @@ TEST(Lookout, ATouchCountsHoweverBriefly) {
 
 TEST(Lookout, ARobotThatWasCarriedKnowsNoRoad) {
   Ride ride;
-  ride.drive(&kFollows, &kByLine);
-  ride.pilot.put(kByLine, 1.0f);
+  ride.follow_road(1.0f);
   ride.go(0.3f, 1.0f);
   ASSERT_NE(ride.pilot.place().road(), nullptr);
   EXPECT_EQ(ride.facts.Carried, -0.9f);
@@ -321,8 +320,7 @@ TEST(Lookout, ARobotThatRestsMayHaveBeenCarriedUnlessItIsNever) {
   for (const bool keeps : {false, true}) {
     Ride ride;
     ride.lookout.keep_place(keeps);
-    ride.drive(&kFollows, &kByLine);
-    ride.pilot.put(kByLine, 1.0f);
+    ride.follow_road(1.0f);
     ride.go(0.3f, 1.0f);
     ride.drive(nullptr, nullptr);
     ride.go(0.0f, 1.5f);
@@ -356,6 +354,16 @@ TEST(Lookout, APlaceThatWasPutIsKeptUntilTheMissionAndALegKeepsIt) {
   ride.drive(nullptr, &kByLine);   // nothing can be followed for a while
   ride.go(0.0f, 5.0f);
   EXPECT_NE(ride.pilot.place().road(), nullptr) << "it is on a mission";
+}
+
+TEST(Lookout, ARobotThatIsCarriedAtRestIsNotSetDownOnARoad) {
+  Ride ride;
+  ride.drive(nullptr, nullptr);
+  ride.go(0.0f, 3.0f);
+  ride.senses.heading_rad = 2.0f;   // it is being turned, and will stand otherwise
+  ride.go(0.0f, 0.4f);
+  EXPECT_EQ(ride.facts.Carried, 0.9f);
+  EXPECT_FALSE(ride.pilot.is_set_down());
 }
 
 TEST(Lookout, AMissionThatBeginsAtAStopLineIsToldOfIt) {
