@@ -1,7 +1,7 @@
 // From the sensors of a robot to the facts of a mind that uses the standard library. It is to perception what `Pilot` is to the wheels:
 //
 //   mts::Pilot pilot(body);
-//   mts::Lookout<errand::Knowledge> lookout(body, errand::landmarks());
+//   mts::Lookout<errand::Knowledge> lookout(body, errand::landmarks(), errand::find_road);
 //   for (;;) {                                                    // each period, 5 to 20 ms
 //     lookout.write(facts);                                       // what was perceived since the last tick
 //     facts.Go = button;                                          // what only the program knows, after `write`
@@ -39,14 +39,19 @@ struct Sign {
   const char* cross_by = "mark";    ///< how the crossing can be driven: "mark azimuth"
 };
 
-/// No heap; memory as RoadWatch and 40 bytes. One object belongs to one thread at a time; it may be copied.
+/// No heap; memory as RoadWatch and 70 bytes. One object belongs to one thread at a time; it may be copied.
 template <class Knowledge>
 class Lookout {
  public:
   using Facts = typename Knowledge::Facts;
 
-  /// `body`: the pilot's. `landmarks`: of the generated header of the map; only these can be read from signs. Looks up names: O(facts).
-  explicit Lookout(const Body& body, const FactRuns& landmarks) noexcept : watch_(body, find("Carried") != kNone), landmarks_(landmarks) {
+  /// The road that leaves a landmark by one of its sides; null: there is none.
+  using FindRoad = const MapRoad* (*)(const char* landmark, const char* exit);
+
+  /// `body`: the pilot's. `landmarks`: of the generated header of the map; only these can be read from signs. `find_road`: of the same header; null:
+  /// the first crossing of a mission counts as one of roads at right angles. Looks up names: O(facts).
+  explicit Lookout(const Body& body, const FactRuns& landmarks, FindRoad find_road = nullptr) noexcept
+      : watch_(body, find("Carried") != kNone), landmarks_(landmarks), find_road_(find_road) {
     for (std::size_t i = 0; i < kGroups; ++i) groups_[i] = find_group(kGroupNames[i]);
     for (std::size_t i = 0; i < kSingles; ++i) singles_[i] = find(kSingleNames[i]);
   }
@@ -56,6 +61,7 @@ class Lookout {
   void step(Pilot& pilot, const Sign& sign, float dt_s) noexcept {
     const SignRead* const read = take(sign);
     watch_.step(pilot, read, dt_s);
+    if (find_road_ != nullptr && approaches()) tell_arrival(pilot, watch_.sign().landmark, side_from());
   }
   /// Before each tick: writes the facts that the knowledge base has. Others keep their values.
   void write(Facts& facts) noexcept {
@@ -142,22 +148,29 @@ class Lookout {
     for (std::size_t i = 0; i < kSafe; ++i) put(facts, singles_[i], values[i]);
   }
   void write_sign(Facts& facts) noexcept {
-    const bool approaches = watch_.at() == RoadWatch::At::kApproach;
     const SignRead& sign = watch_.sign();
     const Index landmark = watch_.landmark()[0] == '\0' ? kNone : sign.fact;
     if (written_ != landmark) put(facts, written_, -RoadWatch::kSure);
     put(facts, landmark, watch_.landmark_certainty());
     written_ = landmark;
-    put(facts, singles_[kSafe], approaches ? RoadWatch::sure(sign.safe) : 0.0f);
-    const char* const in = approaches && watch_.arrives_by()[0] == '\0' ? side_behind() : watch_.arrives_by();
+    put(facts, singles_[kSafe], approaches() ? RoadWatch::sure(sign.safe) : 0.0f);
+    const char* const in = side_from();
     write_group(facts, kIn, [&](const char* side) { return in[0] == '\0' ? 0.0f : RoadWatch::sure(same_text(side, in)); });
-    write_bits(facts, kClosed, approaches, sign.closed);
-    write_bits(facts, kCrossBy, approaches, sign.cross_by);
+    write_bits(facts, kClosed, approaches(), sign.closed);
+    write_bits(facts, kCrossBy, approaches(), sign.cross_by);
   }
   void write_bits(Facts& facts, GroupId group, bool known, std::uint64_t bits) const noexcept {
     for (Index i = 0; i < groups_[group].count; ++i) put(facts, groups_[group].first + i, known && i < 64 ? RoadWatch::sure((bits >> (i & 63u) & 1u) != 0) : 0.0f);
   }
 
+  void tell_arrival(Pilot& pilot, const char* landmark, const char* side) noexcept {
+    if (landmark == to_ && side == from_) return;
+    to_ = landmark, from_ = side;
+    pilot.arrives_from(side[0] == '\0' ? nullptr : find_road_(landmark, side));
+  }
+  [[nodiscard]] bool approaches() const noexcept { return watch_.at() == RoadWatch::At::kApproach; }
+  /// The side from which the robot comes to a crossing; "" if it does not, or nobody knows.
+  [[nodiscard]] const char* side_from() const noexcept { return approaches() && watch_.arrives_by()[0] == '\0' ? side_behind() : watch_.arrives_by(); }
   /// The side of the landmark from which the robot came to the sign, by its compass; "" if it has none, or none leads there.
   [[nodiscard]] const char* side_behind() const noexcept {
     const char* best = "";
@@ -211,6 +224,8 @@ class Lookout {
 
   RoadWatch watch_;
   FactRuns landmarks_;
+  FindRoad find_road_;
+  const char *to_ = nullptr, *from_ = nullptr;   // the landmark, and the side from which the pilot was told that the robot comes to it
   Group groups_[kGroups];
   Index singles_[kSingles] = {};
   SignRead read_;

@@ -26,9 +26,9 @@ class OnRoad {
   /// `body` is the robot's own, not converted.
   constexpr explicit OnRoad(const Body& body = {}) noexcept : body_(body), small_(Similarity(body.size).in(body)) {}
 
-  /// A manoeuvre begins, with the line sensors on the stop line in; `heading_rad`: in which the robot comes.
-  constexpr void enter_crossing(float heading_rad) noexcept {
-    const float to_middle_m = 0.5f * body_.crossing_m + body_.line_ahead_m;
+  /// A manoeuvre begins, with the line sensors on the stop line in, `line_m` before the middle; `heading_rad`: in which the robot comes.
+  constexpr void enter_crossing(float heading_rad, float line_m) noexcept {
+    const float to_middle_m = line_m + body_.line_ahead_m;
     middle_x_m_ = x_m() + to_middle_m * cosine(heading_rad);
     middle_y_m_ = y_m() + to_middle_m * sine(heading_rad);
   }
@@ -39,7 +39,7 @@ class OnRoad {
     if (road != nullptr) along.course[along.pieces++] = road->course[0];
     reckoning_.start_along(senses, along);
     started_ = true;
-    if (road != nullptr) put(*road, begin_of_course_m(body_));
+    if (road != nullptr) put(*road, begin_of_course_m(*road, body_));
   }
   /// It is on `road`, somewhere: on the way round something it has left the crossing that it entered last.
   constexpr void enter_aside(const MapRoad& road) noexcept {
@@ -143,7 +143,7 @@ class OnRoad {
   [[nodiscard]] constexpr Task task(bool rejoins) const noexcept {
     if (road_ == nullptr) return {};
     const Spot here = spot();
-    const float driven_m = here.along_m - begin_of_course_m(body_), ahead_m = kRejoin_m * body_.size;
+    const float driven_m = here.along_m - begin_of_course_m(*road_, body_), ahead_m = kRejoin_m * body_.size;
     const bool beside = rejoins && magnitude(here.left_m) > kBeside_m * body_.size && here.along_m + ahead_m < end_of_course_m(*road_, body_);
     Task task = task_along(*road_, body_, driven_m);
     if (task.in_hall) {

@@ -88,6 +88,8 @@ class Pilot {
   /// Whether a manoeuvre has begun since the robot last followed a road, and how far it has driven since.
   [[nodiscard]] bool in_crossing() const noexcept { return crossed_; }
   [[nodiscard]] float crossed_m() const noexcept { return place_.travelled_m() - entered_m_; }
+  /// From the stop line by which it entered its last crossing to the middle of that.
+  [[nodiscard]] float to_middle_m() const noexcept { return to_middle_m_; }
   /// What drives, from the last `step` on: the line, null if nothing does, and its controller; kStand if that is none of Waymark's.
   [[nodiscard]] const ControlLine* line() const noexcept { return running_; }
   [[nodiscard]] ControllerId controller() const noexcept { return controller_.id(); }
@@ -104,6 +106,9 @@ class Pilot {
     heading_rad = wrapped_angle(place_.spot().heading_rad + (turns_back ? kPi : 0.0f));
     return true;
   }
+  /// What a sign says of the crossing ahead: the road that leaves it by the side from which the robot comes; null: unknown. It counts where the
+  /// robot did not come by the road of its last leg, as at the first crossing of a mission.
+  void arrives_from(const MapRoad* road) noexcept { behind_ = road; }
   /// For programs with controllers of their own: to be called once, where one of them has driven through a crossing and stands on the line out.
   void leave_crossing() noexcept { crossed_ = left_ = true; }
   /// For robots that begin in the middle of a road, `along_m` from the middle of the crossing where it begins. They need a compass.
@@ -233,16 +238,26 @@ class Pilot {
     set_down_ = false;
     left_ = false;
     entered_m_ = place_.travelled_m();
-    Task across = task_across(roads_);
-    if (across.entry_known && senses.heading_known && magnitude(wrapped_angle(senses.heading_rad - across.entry_heading_rad)) > kElsewhere_rad) {
-      across.entry_known = false;   // it did not come by the road of its last leg, whatever carried it here
+    const Body body = as_.out(body_);
+    const Arrival arrival = arrives(senses, body);
+    to_middle_m_ = arrival.line_m;
+    place_.enter_crossing(arrival.heading_known ? arrival.heading_rad : place_.heading_rad(), arrival.line_m);
+    return task_across(arrival, roads_.road(), body);
+  }
+  /// By the road of its last leg; by that which the sign says, if it did not come by the other, whatever carried it here; or as it last drove, since it
+  /// may have looked round.
+  [[nodiscard]] Arrival arrives(const Senses& senses, const Body& body) const noexcept {
+    const auto fits = [&](float heading_rad) { return !senses.heading_known || magnitude(wrapped_angle(senses.heading_rad - heading_rad)) <= kElsewhere_rad; };
+    const Arrival by_leg = arrival_by(roads_.came(), body);
+    if (by_leg.heading_known && fits(by_leg.heading_rad)) return by_leg;
+    const MapRoad* const next = roads_.road();
+    if (behind_ != nullptr && next != nullptr && same_text(behind_->from, next->from)) {
+      const float heading_rad = wrapped_angle(behind_->course[0].heading_rad + kPi);
+      if (fits(heading_rad)) return {heading_rad, true, line_out_m(*behind_, body)};
     }
-    if (!across.entry_known && senses.heading_known && entered_m_ - came_m_ < kForgets_m * size()) {
-      across.entry_heading_rad = came_rad_;   // it may have looked round since
-      across.entry_known = true;
-    }
-    place_.enter_crossing(across.entry_known ? across.entry_heading_rad : place_.heading_rad());
-    return across;
+    Arrival unknown = arrival_by(nullptr, body);
+    if (senses.heading_known && entered_m_ - came_m_ < kForgets_m * size()) unknown.heading_rad = came_rad_, unknown.heading_known = true;
+    return unknown;
   }
   /// To face back along the road, or along it if the robot faces back already; near a bend, and if the line gives another angle, by the angle.
   [[nodiscard]] Task round() const noexcept {
@@ -308,7 +323,7 @@ class Pilot {
     return nullptr;
   }
   /// Whether the robot has driven so far since the last manoeuvre began that it must have been through the middle of its crossing.
-  [[nodiscard]] bool past_middle() const noexcept { return crossed_m() > 0.5f * size() * body_.crossing_m; }
+  [[nodiscard]] bool past_middle() const noexcept { return crossed_m() > to_middle_m_; }
 
   /// Whether the controller comes to the end of what it was told of a road with more bends than a task has room for.
   [[nodiscard]] bool knows_no_more() const noexcept { return place_.road() != nullptr && told_m_ < kInfinity && place_.spot().along_m > told_m_; }
@@ -325,6 +340,7 @@ class Pilot {
   AnyController controller_, suspended_;      // the second: what was interrupted and is to be continued, if `suspended_line_` is not null
   const ControlLine *line_ = nullptr, *running_ = nullptr, *suspended_line_ = nullptr;
   RoadsDriven roads_;
+  const MapRoad* behind_ = nullptr;           // see arrives_from
   OnRoad place_;
   float limit_m_s_ = kInfinity;
   float told_m_ = kInfinity;                  // how far along its road the robot gets without being told more
@@ -332,6 +348,7 @@ class Pilot {
   bool set_down_ = false;                     // facing so, and it has not entered a crossing since
   float set_down_rad_ = 0.0f;
   float entered_m_ = 0.0f, followed_m_ = 0.0f;   // what it had travelled when the last manoeuvre began, and when it last began to follow a road
+  float to_middle_m_ = 0.0f;
   float came_rad_ = 0.0f, came_m_ = -kInfinity;   // its heading when it last followed a road, and what it had travelled then
   bool follows_ = false;                      // the controller follows a road
   bool crossed_ = false;                      // a manoeuvre has run since the robot last followed a road

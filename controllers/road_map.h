@@ -24,6 +24,8 @@ struct MapRoad {
   float limit_m_per_s;     ///< the fastest that it may be driven; infinity: no limit
   const Piece* course;     ///< at least one; no piece is shorter than 1 cm, unless it is the only one
   std::uint16_t pieces;
+  float begins_apart_rad = kPi;   ///< the angle where it begins between it and the road beside it that is nearest, up to pi: none is beside it
+  float ends_apart_rad = kPi;     ///< the same where it ends
 };
 
 /// Facts that stand beside each other in the numbering of a knowledge base, and several runs of them. Static data.
@@ -104,19 +106,32 @@ class RoadsDriven {
   return true;
 }
 
+/// How far from the middle of a crossing the stop line of a road is painted, if the road beside it is `apart_rad` from it: clear of the corner
+/// between the two, and nowhere nearer than half of `Body::crossing_m`. For roads less than 10 degrees from each other that would be too far out; theirs
+/// is taken to be the nearest.
+[[nodiscard]] constexpr float stop_line_m(float apart_rad, const Body& body) noexcept {
+  constexpr float kLeastApart_rad = 0.1745f, kCorner_m = 0.1f;   // from the corner to the line, for a robot of size 1
+  const float least_m = 0.5f * body.crossing_m, half_rad = 0.5f * apart_rad;
+  if (!(apart_rad >= kLeastApart_rad)) return least_m;
+  return greatest(least_m, 0.5f * body.road_width_m * cosine(half_rad) / sine(half_rad) + kCorner_m * body.size);
+}
+/// From the middle of the crossing where the road begins to its stop line out, and from its stop line in to the middle of the crossing where it ends.
+[[nodiscard]] constexpr float line_out_m(const MapRoad& road, const Body& body) noexcept { return stop_line_m(road.begins_apart_rad, body); }
+[[nodiscard]] constexpr float line_in_m(const MapRoad& road, const Body& body) noexcept { return stop_line_m(road.ends_apart_rad, body); }
+
 /// Where the robot's centre is when its line sensors are on the stop line out, in m from the middle of that crossing; and where the stop line in is.
-[[nodiscard]] constexpr float begin_of_course_m(const Body& body) noexcept { return 0.5f * body.crossing_m - body.line_ahead_m; }
-[[nodiscard]] constexpr float end_of_course_m(const MapRoad& road, const Body& body) noexcept { return length_m(road) - 0.5f * body.crossing_m; }
+[[nodiscard]] constexpr float begin_of_course_m(const MapRoad& road, const Body& body) noexcept { return line_out_m(road, body) - body.line_ahead_m; }
+[[nodiscard]] constexpr float end_of_course_m(const MapRoad& road, const Body& body) noexcept { return length_m(road) - line_in_m(road, body); }
 
 /// What to ask of a controller that drives `road` from its beginning: its course from the robot's centre, whose line sensors are on the
-/// stop line out, to the stop line in. Crossings are taken to be as large as `body` says. A robot that begins farther on, since it
+/// stop line out, to the stop line in. A robot that begins farther on, since it
 /// was set down there or has turned back, is `driven_m` past that beginning; NaN is 0. At the stop line in, and on a road shorter than its
 /// crossings, there is 1 cm left. Pieces in one direction are one, and those beyond the eighth are left out. O(pieces).
 [[nodiscard]] constexpr Task task_along(const MapRoad& road, const Body& body, float driven_m = 0.0f) noexcept {
   constexpr float kLeast_m = 0.01f;
   Task task;
-  const float line_m = 0.5f * body.crossing_m, to_m = end_of_course_m(road, body);
-  const float from_m = begin_of_course_m(body) + (driven_m > 0.0f ? driven_m : 0.0f);
+  const float line_m = line_out_m(road, body), to_m = end_of_course_m(road, body);
+  const float from_m = begin_of_course_m(road, body) + (driven_m > 0.0f ? driven_m : 0.0f);
   float passed_m = 0.0f;
   for (std::size_t i = 0; i < road.pieces; ++i) {
     const Piece& piece = road.course[i];
@@ -137,18 +152,31 @@ class RoadsDriven {
   return roads.road() != nullptr ? task_along(*roads.road(), body, driven_m) : Task{};
 }
 
-/// What to ask of a controller that drives over the crossing at which `roads.road()` begins. `turn` is the control line's business. Nothing if
-/// the road is unknown: rules of the standard library cross only where a leg begins.
-[[nodiscard]] constexpr Task task_across(const RoadsDriven& roads) noexcept {
+/// How a robot comes to a crossing.
+struct Arrival {
+  float heading_rad = 0.0f;
+  bool heading_known = false;
+  float line_m = 0.0f;          ///< from its stop line to the middle of the crossing
+};
+/// The same of a robot that comes by `came`; by its own heading if that is null.
+[[nodiscard]] constexpr Arrival arrival_by(const MapRoad* came, const Body& body) noexcept {
+  if (came == nullptr) return {.line_m = stop_line_m(kPi, body)};
+  return {came->course[came->pieces - 1].heading_rad, true, line_in_m(*came, body)};
+}
+
+/// What to ask of a controller that drives over the crossing at which `next` begins; null: it knows no exit. `turn` is the control line's business.
+[[nodiscard]] constexpr Task task_across(const Arrival& arrival, const MapRoad* next, const Body& body) noexcept {
   Task task;
-  const MapRoad *next = roads.road(), *came = roads.came();
+  task.entry_heading_rad = arrival.heading_rad;
+  task.entry_known = arrival.heading_known;
+  task.middle_m = arrival.line_m;
+  task.crossing_m = arrival.line_m + stop_line_m(next != nullptr ? next->begins_apart_rad : kPi, body);
   if (next == nullptr) return task;
   task.exit_heading_rad = next->course[0].heading_rad;
   task.exit_known = true;
-  if (came == nullptr) return task;
-  task.entry_heading_rad = came->course[came->pieces - 1].heading_rad;
-  task.entry_known = true;
   return task;
 }
+/// The same for the crossing at which `roads.road()` begins: rules of the standard library cross only where a leg begins.
+[[nodiscard]] constexpr Task task_across(const RoadsDriven& roads, const Body& body) noexcept { return task_across(arrival_by(roads.came(), body), roads.road(), body); }
 
 }  // namespace mts

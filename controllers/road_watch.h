@@ -141,6 +141,7 @@ class RoadWatch {
     leaves_ = crosses_ && !pilot.in_crossing();
     crosses_ = pilot.in_crossing();
     crossed_m_ = in_m(pilot.crossed_m());
+    to_middle_m_ = in_m(pilot.to_middle_m());
     road_ = place.road();
     leg_ = pilot.road_of_leg();
     id_ = pilot.controller();
@@ -152,7 +153,7 @@ class RoadWatch {
     due_ = passed_end_ = false;
     if (road_ == nullptr) return;
     spot_ = place.spot();
-    const float line_m = 0.5f * body_.crossing_m, road_m = in_m(length_m(*road_)) - 2.0f * line_m;   // from stop line to stop line
+    const float line_m = line_out_m(*road_, body_), road_m = in_m(length_m(*road_)) - line_m - line_in_m(*road_, body_);   // from stop line to stop line
     along_m_ = in_m(spot_.along_m) - line_m;
     beside_road_m_ = in_m(magnitude(spot_.left_m));
     to_bend_m_ = in_m(place.to_bend_m(spot_.along_m));
@@ -293,7 +294,7 @@ class RoadWatch {
   /// Around the middle of a crossing the lines of several roads can be as dark as a stop line; and on the way round something its row may
   /// sweep over the line behind which its road began.
   [[nodiscard]] bool line_counts() const noexcept {
-    if (crosses_) return crossed_m_ > 0.5f * body_.crossing_m + greatest(kStarReaches_m, 0.5f * body_.crossing_m - kApart_m);
+    if (crosses_) return crossed_m_ > to_middle_m_ + greatest(kStarReaches_m, stop_line_m(leg_ != nullptr ? leg_->begins_apart_rad : kPi, body_) - kApart_m);
     return !((rounding_ || beside_m_ > 0.0f || begins_on_road_) && road_ != nullptr && !turned_back_ && along_m_ < kLineBehind_m);
   }
 
@@ -369,7 +370,7 @@ class RoadWatch {
   const MapRoad *road_ = nullptr, *leg_ = nullptr;
   const ControlLine* line_driven_ = nullptr;
   float along_m_ = kInfinity, to_bend_m_ = kInfinity, beside_road_m_ = 0.0f, road_turned_rad_ = 0.0f;
-  float travelled_m_ = 0.0f, way_m_ = 0.0f, turned_rad_ = 0.0f, crossed_m_ = 0.0f;
+  float travelled_m_ = 0.0f, way_m_ = 0.0f, turned_rad_ = 0.0f, crossed_m_ = 0.0f, to_middle_m_ = 0.0f;
   float since_m_ = 0.0f, unread_s_ = kInfinity, sign_s_ = 0.0f, without_line_m_ = 0.0f;
   float clear_s_ = 0.0f, beside_m_ = 0.0f, obstacle_ = 0.0f, carried_s_ = 0.0f, rest_s_ = 0.0f;
   float round_rad_ = 0.0f, way_back_rad_ = 0.0f, came_rad_ = 0.0f;

@@ -54,7 +54,8 @@ void add_road(const GroundRoad& road, Rows& rows) {
     here = there;
   }
   const std::string limit = road.limit_m_per_s > 0.0f ? float_literal(road.limit_m_per_s) : "mts::kInfinity";
-  fmt::format_to(Out(rows.roads), "    {{\"{}\", \"{}\", \"{}\", \"{}\", \"{}\", {}, kMapPieces + {}, {}}},\n", road.from, road.exit, road.to, road.approach, road.by, limit, first, rows.piece_count - first);
+  fmt::format_to(Out(rows.roads), "    {{\"{}\", \"{}\", \"{}\", \"{}\", \"{}\", {}, kMapPieces + {}, {}, {}, {}}},\n", road.from, road.exit, road.to, road.approach, road.by, limit, first,
+                 rows.piece_count - first, float_literal(static_cast<float>(road.begins_apart_rad)), float_literal(static_cast<float>(road.ends_apart_rad)));
 }
 
 Rows rows_of(const model::Model& model, const program::Program& program, const Names& names, const std::map<model::RowId, GroundRoad>& roads) {

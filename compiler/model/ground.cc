@@ -3,8 +3,52 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
 
 namespace kb::model {
+namespace {
+
+double direction(const Point& from, const Point& to) { return std::atan2(to.y - from.y, to.x - from.x); }
+double direction_out(const GroundRoad& road) { return direction(road.course[0], road.course[1]); }
+double direction_back(const GroundRoad& road) { return direction(road.course.back(), road.course[road.course.size() - 2]); }
+
+/// The directions in which roads leave a landmark, in ascending order.
+class Star {
+ public:
+  void add(double direction_rad) { directions_rad_.push_back(direction_rad); }
+  void sort() {
+    std::sort(directions_rad_.begin(), directions_rad_.end());
+    directions_rad_.erase(std::unique(directions_rad_.begin(), directions_rad_.end()), directions_rad_.end());   // both directions of a road
+  }
+  /// From one of them to its nearest neighbour.
+  [[nodiscard]] double apart_rad(double direction_rad) const {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    const auto at = std::lower_bound(directions_rad_.begin(), directions_rad_.end(), direction_rad);
+    const double before = at == directions_rad_.begin() ? directions_rad_.back() - kTurn : *std::prev(at);
+    const double after = std::next(at) == directions_rad_.end() ? directions_rad_.front() + kTurn : *std::next(at);
+    return std::min({std::numbers::pi, *at - before, after - *at});
+  }
+
+ private:
+  std::vector<double> directions_rad_;
+};
+
+void tell_apart(std::vector<GroundRoad>& roads) {
+  std::unordered_map<std::string_view, Star> stars;
+  for (const GroundRoad& road : roads) {
+    stars[road.from].add(direction_out(road));
+    stars[road.to].add(direction_back(road));
+  }
+  for (auto& [landmark, star] : stars) star.sort();
+  for (GroundRoad& road : roads) {
+    road.begins_apart_rad = stars.at(road.from).apart_rad(direction_out(road));
+    road.ends_apart_rad = stars.at(road.to).apart_rad(direction_back(road));
+  }
+}
+
+}  // namespace
 
 std::optional<std::vector<GroundRoad>> ground_roads(const Model& model, const Map& map) {
   std::vector<GroundRoad> roads;
@@ -24,6 +68,7 @@ std::optional<std::vector<GroundRoad>> ground_roads(const Model& model, const Ma
     made.course.push_back(*end);
     roads.push_back(std::move(made));
   }
+  tell_apart(roads);
   return roads;
 }
 

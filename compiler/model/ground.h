@@ -17,10 +17,11 @@ struct GroundRoad {
   std::string_view exit, approach, by;   ///< `approach` and `by` are empty if its relation has no such field
   std::vector<Point> course;             ///< the place of `from`, the road's bends, the place of `to`
   float limit_m_per_s = 0.0f;            ///< 0: none
+  double begins_apart_rad = 0.0, ends_apart_rad = 0.0;   ///< where it begins and ends, the angle to the road beside it that is nearest, up to pi: none is
 };
 
 /// The roads of the map, in its order. Nothing if its relations are the user's own and do not say where things lie: landmarks need `at`,
-/// roads `from`, `to` and `exit`. Linear in the map.
+/// roads `from`, `to` and `exit`. O(n log n).
 [[nodiscard]] std::optional<std::vector<GroundRoad>> ground_roads(const Model& model, const Map& map);
 /// What `{file}` lacks, for messages: "`{file}` has no {ground_lacking}": the place of one landmark, or such a map at all.
 [[nodiscard]] std::string ground_lacking(const Model& model, const Map& map);

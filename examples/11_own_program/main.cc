@@ -62,7 +62,7 @@ Reading read_line(const std::string& text) {
 
 class Robot {
  public:
-  explicit Robot(const mts::Body& body) : pilot_(body), lookout_(body, mission::landmarks()) {}
+  explicit Robot(const mts::Body& body) : pilot_(body), lookout_(body, mission::landmarks(), mission::find_road) {}
 
   /// Whether the pilot can drive by all control lines.
   bool ready() const {

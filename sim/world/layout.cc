@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include <waymark/controllers/road_map.h>
+
 #include "sim/world/geometry.h"
 #include "sim/world/parts.h"
 
@@ -16,7 +18,6 @@ using diagnostics::Kind;
 
 constexpr double kLeastGap = 10.0 * kPi / 180.0;       // between two arms
 constexpr double kMostAstray = kPi / 4.0 + 1e-6;       // of an arm from the direction that it is called by
-constexpr double kCorner = 0.1;                        // between the corner of two roads and their stop lines; times the size
 constexpr double kLeastEndPiece = 0.5;                 // of straight road outside of a stop line; times the size
 constexpr double kScaleStep = 0.05;
 constexpr double kFarthestFloor = 1e8;                 // m; at this distance neighbouring doubles are 15 nm apart
@@ -129,13 +130,12 @@ bool furnish(Labyrinth& labyrinth, const std::vector<HallBuild>& halls, Diagnost
 
 /// How far out the stop line of an arm lies: clear of the corners with the arms beside it.
 double stop_of(const Crossing& crossing, std::size_t arm, double size) {
-  double stop = kLeastStop;   // times the size
+  double apart_rad = kPi;
   const std::size_t count = crossing.arms.size();
   for (const std::size_t other : {(arm + 1) % count, (arm + count - 1) % count}) {
-    const double gap = std::abs(wrap(crossing.arms[other].heading_rad - crossing.arms[arm].heading_rad));
-    if (other != arm && gap < kPi - 0.01) stop = std::max(stop, 0.5 * kRoadWidth / std::tan(0.5 * gap) + kCorner);
+    if (other != arm) apart_rad = std::min(apart_rad, std::abs(wrap(crossing.arms[other].heading_rad - crossing.arms[arm].heading_rad)));
   }
-  return size * stop;
+  return size * static_cast<double>(mts::stop_line_m(static_cast<float>(apart_rad), kRobot));
 }
 
 /// The scale at which a road has room for its stop lines and what lies between them.

@@ -93,7 +93,7 @@ bool knows_its_roads() {
   lookout.step(pilot, {.landmark = "LM5"}, 0.02f);
   lookout.write(facts);
   if (!lookout.knows("LM5") || facts.Line != 0.0f || route1::find_road("LM5", "W") == nullptr) return false;
-  return pilot.drives() && roads.road() != nullptr && mts::same_text(roads.road()->from, "LM5") && mts::task_along(roads, {}).pieces == 1 && mts::task_across(roads).exit_heading_rad > 3.14f;
+  return pilot.drives() && roads.road() != nullptr && mts::same_text(roads.road()->from, "LM5") && mts::task_along(roads, {}).pieces == 1 && mts::task_across(roads, {}).exit_heading_rad > 3.14f;
 }
 
 }  // namespace

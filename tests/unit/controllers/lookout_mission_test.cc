@@ -49,7 +49,7 @@ Mission drive_errand(bool box, const plant::Trial& run) {
   errand::Mind mind;
   errand::Facts facts;
   Pilot pilot(robot.body);
-  Lookout<errand::Knowledge> lookout(robot.body, errand::landmarks());
+  Lookout<errand::Knowledge> lookout(robot.body, errand::landmarks(), errand::find_road);
   Mission mission;
   for (std::uint64_t tick = 0; mission.time_s < 120.0 && !mission.over; ++tick) {
     const Senses senses = robot.sense();

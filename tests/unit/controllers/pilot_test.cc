@@ -100,6 +100,24 @@ TEST(Pilot, StandsWhereNothingDrivesAndWhereTheLineIsNotForIt) {
   EXPECT_GT(trip.robot.x, 0.03);
 }
 
+TEST(Pilot, AtTheFirstCrossingTheSignSaysHowFarItsMiddleIs) {
+  static constexpr Piece kWest[] = {{kPi, 3.0f}};
+  constexpr MapRoad behind = {"Arch", "W", "Dock", "E", "azimuth", kInfinity, kWest, 1, 0.25f * kPi, kPi};
+  const auto to_middle_m = [](const MapRoad* from, double heading_rad) {
+    Trip trip(-1.0);
+    trip.robot.place(-1.0, 0.0, heading_rad);
+    trip.pilot.arrives_from(from);
+    trip.pilot.choose(&kCross, &kThird);
+    trip.drive(0.02);
+    return trip.pilot.to_middle_m();
+  };
+  const Body body;
+  EXPECT_EQ(to_middle_m(nullptr, 0.0), stop_line_m(kPi, body));
+  EXPECT_EQ(to_middle_m(&behind, 0.0), stop_line_m(0.25f * kPi, body));
+  EXPECT_EQ(to_middle_m(&behind, 0.5 * std::numbers::pi), stop_line_m(kPi, body)) << "by the compass it comes from elsewhere";
+  EXPECT_EQ(to_middle_m(&kSecondBack, 0.0), stop_line_m(kPi, body)) << "that is another crossing";
+}
+
 TEST(Pilot, AManoeuvreThatWasInterruptedIsContinued) {
   Trip trip(-0.44, plant::crossing_floor({}));
   trip.pilot.choose(&kMove, &kFirst);

@@ -1,7 +1,10 @@
 // What follows from the map for the tasks of controllers.
 #include <waymark/controllers/road_map.h>
+#include <waymark/controllers/similarity.h>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "tests/unit/controllers/drives.h"
 
@@ -94,20 +97,42 @@ TEST(RoadMap, ACrossingIsLeftInTheDirectionOfTheNextRoad) {
   constexpr MapRoad kStore = {"Shelf", "N", "Store", "S", "mark", kInfinity, kNorth, 1}, kYard = {"Shelf", "W", "Yard", "E", "mark", kInfinity, kWest, 1};
   RoadsDriven roads;
   EXPECT_EQ(task_along(roads, kBody).pieces, 0);
-  EXPECT_FALSE(task_across(roads).entry_known);
-  EXPECT_FALSE(task_across(roads).exit_known);
+  EXPECT_FALSE(task_across(roads, kBody).entry_known);
+  EXPECT_FALSE(task_across(roads, kBody).exit_known);
   roads.follow(&kBent);
-  EXPECT_TRUE(task_across(roads).exit_known);
-  EXPECT_EQ(task_across(roads).exit_heading_rad, 0.0f);
-  EXPECT_FALSE(task_across(roads).entry_known);   // nobody knows how it came to Arch
+  EXPECT_TRUE(task_across(roads, kBody).exit_known);
+  EXPECT_EQ(task_across(roads, kBody).exit_heading_rad, 0.0f);
+  EXPECT_FALSE(task_across(roads, kBody).entry_known);   // nobody knows how it came to Arch
   for (const MapRoad* leaves : {&kStore, &kYard}) {
     roads.follow(leaves);
     roads.follow(leaves);
     EXPECT_EQ(roads.came(), &kBent);
-    EXPECT_EQ(task_across(roads).exit_heading_rad, leaves->course[0].heading_rad);
-    EXPECT_TRUE(task_across(roads).entry_known);
-    EXPECT_EQ(task_across(roads).entry_heading_rad, 0.5f * kPi);
+    EXPECT_EQ(task_across(roads, kBody).exit_heading_rad, leaves->course[0].heading_rad);
+    EXPECT_TRUE(task_across(roads, kBody).entry_known);
+    EXPECT_EQ(task_across(roads, kBody).entry_heading_rad, 0.5f * kPi);
   }
+}
+
+TEST(RoadMap, AStopLineLiesClearOfTheCornerWithTheNextRoad) {
+  constexpr Body kWide{.line_ahead_m = 0.1f, .road_width_m = 0.6f, .crossing_m = 0.9f};
+  EXPECT_EQ(stop_line_m(kPi, kWide), 0.45f);
+  EXPECT_EQ(stop_line_m(0.5f * kPi, kWide), 0.45f);
+  EXPECT_NEAR(stop_line_m(0.25f * kPi, kWide), 0.3f / std::tan(kPi / 8.0f) + 0.1f, 1e-5f);
+  EXPECT_EQ(stop_line_m(5.0f * kRadPerDeg, kWide), 0.45f);
+  EXPECT_EQ(stop_line_m(plant::kNaN, kWide), 0.45f);
+  EXPECT_NEAR(stop_line_m(0.25f * kPi, Similarity(3.0f).out(kWide)), 3.0f * stop_line_m(0.25f * kPi, kWide), 1e-5f);
+}
+
+TEST(RoadMap, ACrossingIsAsLargeAsItsTwoRoadsMakeIt) {
+  static constexpr Piece kFiveEast[] = {{0.0f, 5.0f}};
+  constexpr MapRoad in = {"A", "E", "B", "W", "mark", kInfinity, kFiveEast, 1, kPi, 0.25f * kPi}, out = {"B", "E", "C", "W", "mark", kInfinity, kFiveEast, 1, 0.2f * kPi, kPi};
+  RoadsDriven roads = on(in);
+  roads.follow(&out);
+  const Task across = task_across(roads, kBody);
+  EXPECT_NEAR(across.middle_m, stop_line_m(0.25f * kPi, kBody), 1e-6f);
+  EXPECT_NEAR(across.crossing_m, stop_line_m(0.25f * kPi, kBody) + stop_line_m(0.2f * kPi, kBody), 1e-6f);
+  EXPECT_NEAR(task_along(on(in), kBody).course[0].length_m, 5.0f - 0.4f + 0.1f - stop_line_m(0.25f * kPi, kBody), 1e-5f);
+  EXPECT_NEAR(task_along(on(out), kBody).course[0].length_m, 5.0f - 0.4f + 0.1f - stop_line_m(0.2f * kPi, kBody), 1e-5f);
 }
 
 TEST(RoadMap, ARobotThatIsElsewhereDoesNotKnowHowItCameThere) {

@@ -100,7 +100,8 @@ mts::MapRoad emitted(const model::GroundRoad& road, std::vector<mts::Piece>& cou
     const Spot piece{road.course[i].x - road.course[i - 1].x, road.course[i].y - road.course[i - 1].y};
     course.push_back({static_cast<float>(heading(piece)), static_cast<float>(std::hypot(piece.x_m, piece.y_m))});
   }
-  return {"", "", "", "", road.by == "open" ? "open" : "mark", mts::kInfinity, course.data(), static_cast<std::uint16_t>(course.size())};
+  return {"", "", "", "", road.by == "open" ? "open" : "mark", mts::kInfinity, course.data(), static_cast<std::uint16_t>(course.size()),
+          static_cast<float>(road.begins_apart_rad), static_cast<float>(road.ends_apart_rad)};
 }
 
 // A program that has only the map asks of its controllers what the simulator asks of them.
@@ -113,6 +114,8 @@ map Yard {
     landmark Arch  at (5, 0)
     landmark Shelf at (8, 6)
     landmark Store at (8, 12)
+    landmark Hill  at (8, -3.4)
+    road Arch.S  -- Hill.N  by mark
     road Dock.E  -- Arch.W  by mark
     road Arch.E  -- Shelf.S through (8, 0) by dist
     road Shelf.N -- Store.S by open
@@ -127,6 +130,7 @@ map Yard {
     const auto& memory = floor.memory(yard->labyrinth->by_name.at(std::string(road.from)));
     const auto arm = std::find_if(memory->exits.begin(), memory->exits.end(), [&](const Memory::Exit& exit) { return exit.name == road.exit; });
     ASSERT_NE(arm, memory->exits.end());
+    EXPECT_NEAR(mts::stop_line_m(static_cast<float>(road.begins_apart_rad), kRobot), arm->stop_m, 1e-6) << road.from << "." << road.exit;
     std::vector<mts::Piece> course;
     const mts::MapRoad in_program = emitted(road, course);
     mts::RoadsDriven roads_driven;

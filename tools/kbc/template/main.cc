@@ -47,7 +47,7 @@ int main() {
   @NAME@::Mind mind;
   @NAME@::Facts facts;
   mts::Pilot pilot(body);
-  mts::Lookout<@NAME@::Knowledge> lookout(body, @NAME@::landmarks());
+  mts::Lookout<@NAME@::Knowledge> lookout(body, @NAME@::landmarks(), @NAME@::find_road);
   if (!can_drive(pilot)) return 1;
   mts::Senses senses;
   mts::Sign sign;
