@@ -35,6 +35,7 @@ class AnyController {
   void choose(ControllerId id, const Body& body = {}, const Host& host = {}) noexcept {
     id_ = id;
     turn_set_ = false;
+    timeless_ = 0;
     visit([&]<class Chosen>(Chosen& controller) {
       new (&controller) Chosen{};
       if constexpr (requires { controller.body; }) controller.body = body;
@@ -100,12 +101,13 @@ class AnyController {
   }
   /// What the wheels are to do until the next step. `dt_s`: seconds since the last one, usually 0.005 to 0.02; more than half a second counts as
   /// half, NaN, negative ones and less than a microsecond as 0 (see `sane_period`). Call `start` before: without it the answer
-  /// is a motion that `braked` allows, but serves no purpose. Cost: some hundred to some ten thousand floating-point operations; what `host`
+  /// is a motion that `braked` allows, but serves no purpose. If 50 periods in a row count as 0, the clock stands, and so does the robot. Cost: some hundred to some ten thousand floating-point operations; what `host`
   /// needs comes on top.
   [[nodiscard]] Motion step(const Senses& senses, float dt_s) noexcept {
     Motion motion;
     visit([&](auto& controller) { motion = controller.step(senses, dt_s); });
-    return motion;
+    timeless_ = sane_period(dt_s) > 0.0f ? std::uint8_t{0} : timeless_ < kMostTimeless ? static_cast<std::uint8_t>(timeless_ + 1) : kMostTimeless;
+    return timeless_ < kMostTimeless ? motion : Motion{};
   }
   /// Whether the controller has reached its end; the robot then stands.
   [[nodiscard]] bool done() const noexcept {
@@ -163,6 +165,8 @@ class AnyController {
   ControllerId id_ = ControllerId::kStand;
   Turn turn_ = Turn::kForward;
   bool turn_set_ = false;
+  static constexpr std::uint8_t kMostTimeless = 50;
+  std::uint8_t timeless_ = 0;   ///< periods in a row
   // All members are trivially copyable, so the union is too, and none needs to be destroyed.
   union {
     Stand stand_;

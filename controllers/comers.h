@@ -27,12 +27,10 @@ class Comers {
  public:
   /// Call it each period, before `take`. The senses must have been `heard`, and `reckoning` must have made its step.
   void step(const Reckoning& reckoning, float dt_s) noexcept {
-    const float way = reckoning.travelled_m() - travelled_m_;
-    travelled_m_ = reckoning.travelled_m();
     since_s_ += dt_s;
-    since_m_ += way;
+    since_m_ += reckoning.way_m();
     hold_s_ = greatest(hold_s_ - dt_s, 0.0f);
-    lane_m_ -= way;
+    lane_m_ -= reckoning.way_m();
   }
 
   /// Takes a new reading of the range finders; `spread_m` is the spread of a single one.
@@ -146,7 +144,7 @@ class Comers {
   Reading readings_[kMost] = {};
   std::size_t next_ = 0, count_ = 0;
   std::uint8_t seen_[kDirections] = {};
-  float travelled_m_ = 0.0f, since_s_ = 0.0f, since_m_ = 0.0f;
+  float since_s_ = 0.0f, since_m_ = 0.0f;
   float hold_s_ = 0.0f, lane_m_ = 0.0f;
 };
 static_assert(sizeof(Comers) <= 376);

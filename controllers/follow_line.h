@@ -103,7 +103,7 @@ class FollowLine {
     if (lost()) return {};
     Motion motion{0.5f * gains.speed_m_s, 0.0f};
     if (at_side_) motion = {0.02f, sign_of(side) * least(2.5f, gains.turn_rad_s)};
-    lost_m_ += dt * (senses.odometry_known && !at_side_ ? magnitude(senses.speed_m_s) : motion.speed_m_s);
+    lost_m_ += dt * (senses.odometry_known && !at_side_ ? searched_m_s(senses, motion.speed_m_s) : motion.speed_m_s);
     lost_rad_ += dt * magnitude(motion.turn_rad_s);
     return braked(motion, senses, body);
   }

@@ -49,10 +49,9 @@ class Hall {
     Senses senses = heard(raw, body_);
     senses.met_m = kOutOfRange;
     dt_s_ = sane_period(dt_s);
-    const float before_m = reckoning_.travelled_m();
     reckoning_.step(senses, dt_s_);
     blind_ = !known_ || !reckoning_.heading_known() || !reckoning_.distance_known();
-    const bool stands = !crosses() && !past() && reckoning_.travelled_m() - before_m < kCreeps_m_s * dt_s_;
+    const bool stands = !crosses() && !past() && reckoning_.way_m() < kCreeps_m_s * dt_s_;
     if (!blind_ && sees(senses)) stood_s_ = stands ? stood_s_ + dt_s_ : 0.0f;   // a robot that stands because its range finders are silent does not wait in vain
     if (blind_) return senses;
     if (phase_ == Phase::kIn && along(in_).x_m > body_.hall_door_m + kIn_m) phase_ = Phase::kAcross;

@@ -115,6 +115,10 @@ namespace detail {
   return {0.0f, left < kMeets_m ? least(motion.turn_rad_s, -kAway_rad_s) : greatest(motion.turn_rad_s, kAway_rad_s)};
 }
 
+/// How fast a search comes to its end, by odometry, which must be known; a wheel that odometry does not see turn counts for a quarter of what it was asked
+/// for, so that a dead encoder ends a search later, but not never.
+[[nodiscard]] constexpr float searched_m_s(const Senses& senses, float asked_m_s) noexcept { return greatest(magnitude(senses.speed_m_s), 0.25f * asked_m_s); }
+
 /// The same way at no more than `limit_m_s`: the turn becomes slower with the speed, so that the robot drives the same curve.
 [[nodiscard]] constexpr Motion slowed(const Motion& wanted, float limit_m_s) noexcept {
   const float speed_m_s = magnitude(wanted.speed_m_s);

@@ -145,7 +145,7 @@ class KeepWall {
   }
 
   [[nodiscard]] Motion across_gap(const Senses& senses, float dt) noexcept {
-    gone_m_ += dt * (senses.odometry_known ? magnitude(senses.speed_m_s) : gains.speed_m_s);
+    gone_m_ += dt * (senses.odometry_known ? searched_m_s(senses, gains.speed_m_s) : gains.speed_m_s);
     lost_ = gone_m_ >= gains.gap_m;
     left_.reset();
     angle_.reset();

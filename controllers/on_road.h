@@ -97,6 +97,8 @@ class OnRoad {
   [[nodiscard]] constexpr float heading_rad() const noexcept { return reckoning_.at.heading_rad; }
   [[nodiscard]] constexpr bool heading_known() const noexcept { return reckoning_.heading_known(); }
   [[nodiscard]] constexpr float travelled_m() const noexcept { return body_.size * reckoning_.travelled_m(); }
+  /// In the last step.
+  [[nodiscard]] constexpr float way_m() const noexcept { return body_.size * reckoning_.way_m(); }
   /// Whether the robot faces along the road, or back to where it came from, to 45 degrees. False if the road is unknown.
   [[nodiscard]] constexpr bool faces_along() const noexcept { return road_ != nullptr && turned_rad() < 0.25f * kPi; }
   [[nodiscard]] constexpr bool faces_back() const noexcept { return road_ != nullptr && turned_rad() > 0.75f * kPi; }

@@ -131,6 +131,7 @@ class Pilot {
     roads_.forget();
     place_.forget();
     suspended_line_ = running_ = nullptr;
+    controller_.choose(Id::kStand, body_);   // if nothing is chosen any more, nothing begins either
     crossed_ = left_ = drives_ = changed_ = follows_ = false;
     came_m_ = -kInfinity;
     told_m_ = kInfinity;

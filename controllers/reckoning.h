@@ -107,13 +107,14 @@ class Reckoning {
     distance_known_ = senses.odometry_known;
     const float way = distance_known_ ? odometry_.way_m(senses, dt_s) : 0.0f;
     odometry_.take(senses);
+    way_m_ = magnitude(way);
     if (senses.heading_known) compass_silent_m_ = 0.0f;
-    else compass_silent_m_ += magnitude(way);
+    else compass_silent_m_ += way_m_;
     if (!distance_known_) return;
     const float middle = before + 0.5f * wrapped_angle(at.heading_rad - before);
     at.x_m += way * cosine(middle);
     at.y_m += way * sine(middle);
-    travelled_m_ += magnitude(way);
+    travelled_m_ += way_m_;
   }
 
   /// Tells the reckoning that its heading is wrong by `by_rad`. From now on the compass is corrected by as much.
@@ -124,7 +125,10 @@ class Reckoning {
 
   [[nodiscard]] constexpr bool heading_known() const noexcept { return heading_known_; }
   [[nodiscard]] constexpr bool distance_known() const noexcept { return distance_known_; }
+  /// Since the start. After 8 km steps of a millimetre are lost in its last digit: for short ways of an object that never starts again use `way_m`.
   [[nodiscard]] constexpr float travelled_m() const noexcept { return travelled_m_; }
+  /// In the last step.
+  [[nodiscard]] constexpr float way_m() const noexcept { return way_m_; }
   /// Distance driven since the compass was last heard.
   [[nodiscard]] constexpr float compass_silent_m() const noexcept { return compass_silent_m_; }
 
@@ -135,7 +139,7 @@ class Reckoning {
   Odometer odometry_{};
   float turned_rad_ = 0.0f;
   float offset_rad_ = 0.0f;   ///< of the compass
-  float travelled_m_ = 0.0f, compass_silent_m_ = 0.0f;
+  float way_m_ = 0.0f, travelled_m_ = 0.0f, compass_silent_m_ = 0.0f;
   bool relative_ = false;     ///< the compass has not been heard yet, and its axes do not matter
   bool turned_known_ = false, heading_known_ = false, distance_known_ = false;
 };

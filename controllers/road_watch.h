@@ -129,10 +129,8 @@ class RoadWatch {
     senses_ = pilot.heard();
     const OnRoad& place = pilot.place();
     const Place before = here_;
-    const float travelled_m = in_m(place.travelled_m());
     here_ = {in_m(place.at().x_m), in_m(place.at().y_m), place.at().heading_rad};
-    way_m_ = magnitude(travelled_m - travelled_m_);
-    travelled_m_ = travelled_m;
+    way_m_ = in_m(place.way_m());
     turned_rad_ = wrapped_angle(here_.heading_rad - before.heading_rad);
     round_rad_ += turned_rad_;
     if (pilot.in_crossing() != crosses_ || place.road() != road_) given_up_ = false;
@@ -370,7 +368,7 @@ class RoadWatch {
   const MapRoad *road_ = nullptr, *leg_ = nullptr;
   const ControlLine* line_driven_ = nullptr;
   float along_m_ = kInfinity, to_bend_m_ = kInfinity, beside_road_m_ = 0.0f, road_turned_rad_ = 0.0f;
-  float travelled_m_ = 0.0f, way_m_ = 0.0f, turned_rad_ = 0.0f, crossed_m_ = 0.0f, to_middle_m_ = 0.0f;
+  float way_m_ = 0.0f, turned_rad_ = 0.0f, crossed_m_ = 0.0f, to_middle_m_ = 0.0f;
   float since_m_ = 0.0f, unread_s_ = kInfinity, sign_s_ = 0.0f, without_line_m_ = 0.0f;
   float clear_s_ = 0.0f, beside_m_ = 0.0f, obstacle_ = 0.0f, carried_s_ = 0.0f, rest_s_ = 0.0f;
   float round_rad_ = 0.0f, way_back_rad_ = 0.0f, came_rad_ = 0.0f;

@@ -43,9 +43,8 @@ void Perception::hear(const mts::Senses& senses, const TagHeard& tag, float dt_s
   if (!reckons_) reckoning_.start(senses, {});
   reckons_ = true;
   touched_ = touched_ || senses.touched;
-  const float before_m = reckoning_.travelled_m();
   reckoning_.step(senses, dt_s);
-  const float way_m = reckoning_.travelled_m() - before_m;
+  const float way_m = reckoning_.way_m();
   since_m_ += way_m;
   to_line_out_m_ -= way_m;
   if (doing_ != nullptr && doing_->doing == Doing::kMove) beside_m_ = std::max(beside_m_ - way_m, 0.0f);

@@ -97,6 +97,21 @@ TEST(Comers, WhoeverWouldMeetItIsLetPass) {
   }
 }
 
+TEST(Comers, HowFarItHasDrivenBeforeDoesNotMatter) {
+  for (const double before_km : {0.0, 8.0, 16.0, 33.0, 65.0}) {
+    Street street = meeting(0.8, 90.0, 1.0);
+    street.asked_m_s = street.speed = 0.3;   // 3 mm a step
+    street.x = 2.4 - 0.3 * 2.5 / 0.8;
+    Senses senses;
+    senses.heading_known = senses.odometry_known = senses.turned_known = true;
+    senses.speed_m_s = 10.0f;
+    for (double m = 0.0; m < 1000.0 * before_km; m += 5.0) static_cast<void>(street.steady.step(senses, 0.5f));
+    street.drive(12.0);
+    EXPECT_GT(street.gap_m, 0.0) << before_km << " km";
+    EXPECT_LT(street.slowest, 0.2) << before_km << " km";
+  }
+}
+
 TEST(Comers, WhoPassesBehindItIsNotStoodInTheWayOf) {
   for (const double walk : {0.4, 0.6}) {
     for (const double side : {1.0, -1.0}) {

@@ -375,6 +375,25 @@ TEST(Pilot, OfARobotThatWasCarriedNothingIsKept) {
   EXPECT_TRUE(trip.pilot.drives());
 }
 
+TEST(Pilot, WhereNothingIsWantedAnyMoreItStandsWhateverItWasTold) {
+  const std::pair<const char*, void (*)(Pilot&)> calls[] = {{"forget_place", [](Pilot& pilot) { pilot.forget_place(); }},
+                                                            {"set_down", [](Pilot& pilot) { pilot.set_down(0.3f); }},
+                                                            {"put", [](Pilot& pilot) { pilot.put(kSecond, 1.0f); }}};
+  for (const auto& [name, tell] : calls) {
+    Trip trip(0.0);
+    trip.pilot.choose(&kMove);
+    trip.drive(1.0);
+    EXPECT_GT(trip.last.speed_m_s, 0.1f) << name;
+    tell(trip.pilot);
+    trip.pilot.choose(nullptr);
+    for (int i = 0; i < 100; ++i) {
+      trip.drive(0.02);
+      ASSERT_EQ(trip.last.speed_m_s, 0.0f) << name;
+      ASSERT_EQ(trip.last.turn_rad_s, 0.0f) << name;
+    }
+  }
+}
+
 TEST(Pilot, ARobotThatWasSetDownHoldsTheHeadingOfItsRoad) {
   Trip trip(0.0);
   trip.pilot.choose(&kMove);

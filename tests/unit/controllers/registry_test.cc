@@ -131,6 +131,21 @@ TEST(AnyController, StandsBeforeItsCrossingHasBegun) {
   }
 }
 
+TEST(AnyController, StandsWhereTheClockStands) {
+  Senses senses;
+  senses.line_known = senses.range_known = senses.heading_known = senses.odometry_known = true;
+  for (float& range_m : senses.range_m) range_m = kOutOfRange;
+  for (const float dt_s : {0.0f, plant::kNaN, -0.02f}) {
+    AnyController drive;
+    drive.choose(ControllerId::kHoldHeading);
+    drive.start({}, senses);
+    EXPECT_GT(drive.step(senses, dt_s).speed_m_s, 0.0f) << "one late reading of the clock is not the end";
+    for (int i = 0; i < 60; ++i) static_cast<void>(drive.step(senses, dt_s));
+    EXPECT_EQ(drive.step(senses, dt_s).speed_m_s, 0.0f) << dt_s;
+    EXPECT_GT(drive.step(senses, 0.02f).speed_m_s, 0.0f) << "it goes on when the clock does";
+  }
+}
+
 TEST(AnyController, KeepsNoWallInsideTheRobot) {
   const Body broad{.radius_m = 0.2f};
   const struct { ControllerId id; const char* name; } distances[] = {{ControllerId::kKeepWall, "distance"}, {ControllerId::kRoundObstacle, "distance"},

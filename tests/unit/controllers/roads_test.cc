@@ -269,6 +269,18 @@ TEST(FollowLine, CrossesAShortGapAndStopsAfterALongOne) {
   }
 }
 
+TEST(FollowLine, ADeadEncoderDoesNotMakeItsSearchEndless) {
+  Senses senses;
+  senses.line_known = senses.range_known = senses.heading_known = senses.odometry_known = true;
+  for (float& range_m : senses.range_m) range_m = kOutOfRange;
+  FollowLine follow;
+  follow.start({}, senses);
+  double asked_m = 0.0;
+  for (int i = 0; i < 3000; ++i) asked_m += 0.02 * static_cast<double>(follow.step(senses, 0.02f).speed_m_s);
+  EXPECT_TRUE(follow.lost());
+  EXPECT_LT(asked_m, 4.1 * static_cast<double>(follow.gains.search_m));
+}
+
 TEST(FollowLine, IsSlowerInABend) {
   Floor floor;
   const std::vector<Piece> pieces{{0.0f, 1.5f}, {static_cast<float>(kQuarter), 1.5f}};
