@@ -1,73 +1,14 @@
 // A drive as a recording.
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "compiler/program/tick.h"
 #include "sim/drive/drive.h"
-#include "sim/mind/control_words.h"
+#include "sim/drive/mind_names.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
 
 namespace {
-
-std::uint32_t number(auto id) { return static_cast<std::uint32_t>(id); }
-
-std::vector<std::uint32_t> numbers(const auto& ids) {
-  std::vector<std::uint32_t> out;
-  for (const auto id : ids) out.push_back(number(id));
-  return out;
-}
-
-MindNames::Cell cell_of(const program::Cell& cell) {
-  MindNames::Cell out;
-  out.name = cell.name;
-  out.kind = static_cast<MindNames::Cell::Kind>(cell.kind);   // both list the kinds in the same order
-  out.initial = cell.initial;
-  out.command = cell.command;
-  out.keep = cell.keep;
-  out.satellites = numbers(cell.satellites);
-  const program::Thresholds thresholds = program::thresholds(cell);
-  out.plain = thresholds.plain;
-  out.attended = thresholds.attended;
-  return out;
-}
-
-MindNames::Rule rule_of(const program::Program& program, const program::Rule& rule) {
-  MindNames::Rule out;
-  out.name = rule.name;
-  out.level = program.levels[rule.level];
-  out.at = program.at(rule);
-  if (rule.condition != program::CondId::kNone) out.condition = static_cast<std::int32_t>(rule.condition);
-  for (const program::Write& write : rule.writes) out.writes.push_back({number(write.cell), write.value});
-  out.clears.assign(rule.clears.begin(), rule.clears.end());
-  out.reset = rule.reset;
-  out.each_tick = rule.mode == program::Mode::kWhile;
-  return out;
-}
-
-/// A control line as it was written: `follow_line(speed: 0.4 m/s)`.
-std::string control_text(const program::Control& control) {
-  std::string arguments;
-  for (const auto& argument : control.arguments) arguments += fmt::format("{}{}: {}", arguments.empty() ? "" : ", ", argument.name, value_text(argument));
-  return fmt::format("{}({})", control.controller, arguments);
-}
-
-MindNames names_of(const program::Program& program) {
-  MindNames names;
-  for (const program::Cell& cell : program.cells) names.cells.push_back(cell_of(cell));
-  for (const program::Control& control : program.controls) names.cells[program::index(control.strategy)].control = control_text(control);
-  for (const program::Rule& rule : program.rules) names.rules.push_back(rule_of(program, rule));
-  for (const program::Cond& cond : program.conds) {
-    names.conditions.push_back({static_cast<MindNames::Condition::Op>(cond.op), static_cast<MindNames::Condition::Term>(cond.term),
-                                number(cond.cell), static_cast<double>(cond.duration_us) / 1e6, numbers(cond.children)});
-  }
-  for (const auto& group : program.exclusive) names.exclusive.push_back(numbers(group));
-  names.levels = program.levels;
-  names.firing = static_cast<float>(program.settings.firing);
-  return names;
-}
 
 /// The names for a drive by a helm: only the strategies, since nothing is known of a helm's mind but the strategy that it says it drives by.
 MindNames strategies_of(const program::Program& program) {
@@ -119,12 +60,10 @@ void Drive::record(const program::Tick& tick, const Judge::Belief& belief) {
     for (const program::CellValue& set : tick.set) change(program::index(set.cell), set.value);
     for (std::size_t s = first_strategy; s < recorded_.size(); ++s) change(s, driver_.mind().value(static_cast<program::CellId>(s)));
   }
-  frame.events = numbers(tick.events);
-  frame.lost = numbers(tick.lost);
-  frame.fired = numbers(tick.fired);
+  tell(tick, *knowledge_.program, frame);
   frame.status = !powered_ ? "off" : waits_ ? "waits" : options_.helm == nullptr ? program::status_text(tick.status) : options_.helm->gone() ? "gone" : "";
   if (belief.leg != nullptr) frame.leg = belief.leg->name;
-  frame.notes = std::move(notes_);
+  frame.notes.insert(frame.notes.end(), notes_.begin(), notes_.end());
   notes_.clear();
   options_.recording->frames.push_back(std::move(frame));
   record_things();

@@ -28,15 +28,17 @@ class Column {
       values_.push_back(nullptr);
       return;
     }
+    any_ = true;
     const auto value = number.get<std::int64_t>();
     values_.push_back(value - last_);
     last_ = value;
   }
-  [[nodiscard]] Json take() { return std::move(values_); }
+  [[nodiscard]] Json take() { return any_ ? std::move(values_) : Json::array(); }
 
  private:
   Json values_ = Json::array();
   std::int64_t last_ = 0;
+  bool any_ = false;
 };
 
 Json metres(double value) { return integer(value, kMilli); }

@@ -3,7 +3,7 @@
 // Two parts: what is fixed for a drive, and frames in chunks. A page from a file holds one chunk; a live page is sent chunk after
 // chunk. All is JSON, made of keys with short names and long columns:
 //
-//   a column    the frames' values as integers (see `html` in report.h), the first as it is, then differences; null: unknown
+//   a column    the frames' values as integers (see `html` in report.h), the first as it is, then differences; null: unknown; empty: none is known
 //   a sparse    [frames, values]: ascending frames of the drive as differences, the first as it is; the value from each on
 #pragma once
 

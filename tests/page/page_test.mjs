@@ -42,6 +42,18 @@ test('what does not hold is said of a strategy that does not run', () => withPag
   assert.match(await page.textContent('#why-panel'), /Avoid.*It runs/s);
 }));
 
+test('a recording without a floor shows the mind alone', () => withPage('floorless.html', async (page) => {
+  assert.equal(await page.locator('.floor').isVisible(), false);
+  assert.equal(await page.locator('.of-legs').isVisible(), false);
+  const at = firing('go_round') + 2;
+  await go(page, at);
+  assert.equal(await page.textContent('#strategy'), truth[at].strategy);
+  await page.click('#strategy');
+  assert.match(await page.textContent('#why-panel'), /Avoid.*It runs/s);
+  assert.ok((await page.locator('#history').boundingBox()).height > 100);
+  await shot(page, 'floorless');
+}));
+
 test('the conditions of every rule hold at every tick at which it fired', () => withPage('drive.html', async (page) => {
   const wrong = await page.evaluate(() => {
     const d = waymark.drive, out = [];

@@ -47,6 +47,10 @@ int main(int argc, char** argv) {
   write(folder + "drive.svg", report::svg(drive));
   write(folder + "drive.trace.json", report::chrome_trace(drive));
   write(folder + "drive.csv", report::csv(drive));
+  Recording floorless = drive;
+  floorless.picture = {};
+  floorless.legs.clear();
+  write(folder + "floorless.html", report::html(floorless));
   write(folder + "long.html", report::html(testing::small_drive(1, 27)));
   write(folder + "nasty.html", report::html(testing::nasty_drive()));
   write(folder + "not_finite.html", report::html(testing::not_finite()));

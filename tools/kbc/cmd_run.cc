@@ -12,6 +12,7 @@
 #include "tools/kbc/checks.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/recorded_input.h"
+#include "tools/kbc/recorded_page.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/trace/engine.h"
@@ -28,7 +29,7 @@ using diagnostics::Kind;
 struct RunOptions {
   std::string file;
   RecordedOptions recorded;
-  std::string trace;
+  std::string trace, html;
   bool table = false;
   trace::TableOptions shown;
   std::string ticks;
@@ -71,12 +72,20 @@ struct Counts {
     bad_readings.add(so_far.bad - looks.bad, tick);
     looks = so_far;
   }
+  /// What went wrong, in words; empty: nothing.
+  [[nodiscard]] std::string faults_text() const {
+    std::string text;
+    if (conflicts.count > 0) text = conflicts.text("conflict");
+    if (bad_facts.count > 0) text += (text.empty() ? "" : ", ") + bad_facts.text("bad fact");
+    return text;
+  }
 };
 
 // Everything that takes the ticks of a run.
 struct Sinks {
   std::optional<trace::OutputFile> trace;
   std::optional<trace::Table> table;
+  std::optional<RecordedPage> page;
 };
 
 bool open_sinks(const RunOptions& options, const program::Program& program, Sinks& sinks, Session& session,
@@ -89,13 +98,17 @@ bool open_sinks(const RunOptions& options, const program::Program& program, Sink
     for (const std::string& pattern : vain) diagnostics.report(Kind::kCellsNone, {}, {pattern}).suggest(trace::meant_by(program, pattern));
     if (!vain.empty()) return false;
   }
-  if (options.table && options.trace.empty()) return true;
+  if (!options.html.empty()) {
+    if (!session.may_write(options.html)) return false;
+    sinks.page.emplace(program, fmt::format("{} on {}", options.file, options.recorded.path()));
+  }
+  if ((options.table || sinks.page) && options.trace.empty()) return true;
   const std::string path = options.trace.empty() ? "-" : options.trace;
   return session.open_output(sinks.trace.emplace(), path);
 }
 
 // Gives the tick to all sinks. True if they could take it.
-bool take(const program::Tick& tick, const trace::Engine& engine, const program::Program& program, Sinks& sinks,
+bool take(const program::Tick& tick, std::span<const float> facts, const trace::Engine& engine, const program::Program& program, Sinks& sinks,
           diagnostics::Diagnostics& diagnostics) {
   if (!engine.disagreement().empty()) {
     diagnostics.report(Kind::kEnginesDisagree, {}, {fmt::format("{}", tick.number), engine.disagreement()});
@@ -105,6 +118,10 @@ bool take(const program::Tick& tick, const trace::Engine& engine, const program:
     sinks.trace->write(print_json(program, tick));
     sinks.trace->write("\n");
     if (sinks.trace->failed()) return true;  // reported once, when the file is closed
+  }
+  if (sinks.page && !sinks.page->add(tick, facts, engine)) {
+    diagnostics.report(Kind::kPageTooLong, {}, {diagnostics::counted(RecordedPage::kMostTicks, "tick")});
+    return false;
   }
   if (!sinks.table || sinks.table->add(tick, [&](program::CellId cell) { return engine.value(cell); })) return true;
   diagnostics.report(Kind::kTableTooLarge, {}, {fmt::format("{} values", trace::Table::kMaxValues)});
@@ -123,7 +140,7 @@ bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& sens
       diagnostics.report(Kind::kEnginesDisagree, {}, {fmt::format("{}", tick.number), senses.disagreement()});
       return false;
     }
-    if (!take(tick, engine, program, sinks, diagnostics)) return false;
+    if (!take(tick, facts, engine, program, sinks, diagnostics)) return false;
     if (sinks.trace && sinks.trace->failed()) break;
     counts.add(tick, facts, program, senses.looks());
     progress.update(counts.ticks);
@@ -141,14 +158,14 @@ bool has_ticks(const RunOptions& options, const Sinks& sinks, const Counts& coun
   return false;
 }
 
-bool close_sinks(const RunOptions& options, Sinks& sinks, Session& session, diagnostics::Diagnostics& diagnostics) {
+bool close_sinks(const RunOptions& options, Sinks& sinks, const Counts& counts, Session& session, diagnostics::Diagnostics& diagnostics) {
   if (sinks.trace && !sinks.trace->commit()) {
     diagnostics.report(Kind::kCannotWrite, {},
                        {options.trace.empty() ? "standard output" : options.trace, sinks.trace->error()});
     return false;
   }
   if (sinks.table) session.print(sinks.table->print());
-  return true;
+  return !sinks.page || session.write_files({{options.html, sinks.page->html(counts.faults_text())}});
 }
 
 void summarise(const RunOptions& options, const Counts& counts, Session& session) {
@@ -176,7 +193,7 @@ int run(const RunOptions& options, Session& session) {
   Counts counts;
   if (!play(*input.reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
   if (Interrupts::came()) return kInterrupted;
-  if (!has_ticks(options, sinks, counts, diagnostics) || !close_sinks(options, sinks, session, diagnostics)) return kErrors;
+  if (!has_ticks(options, sinks, counts, diagnostics) || !close_sinks(options, sinks, counts, session, diagnostics)) return kErrors;
   summarise(options, counts, session);
   return session.exit_code();
 }
@@ -188,8 +205,9 @@ Run setup_run(CLI::App& app) {
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   add_recorded_options(app, options->recorded);
   auto* trace = app.add_option("--trace", options->trace,
-                 "Write the trace to this file, JSON lines; without it, and without --table, to standard output")
+                 "Write the trace to this file, JSON lines; without it, --table and --html, to standard output")
       ->type_name("FILE");
+  auto* html = app.add_option("--html", options->html, "Write a page that plays the run and explains each decision to this file")->type_name("FILE");
   auto* table =
       app.add_flag("--table", options->table, "Print cells by ticks: the cells that change, at ticks when one does; and the strategy that runs, if the cells do not show it");
   app.add_option("--cells", options->shown.cells, "With --table: the cells that match, such as 'Move.* sat LM?'")->type_name("NAMES")
@@ -199,7 +217,7 @@ Run setup_run(CLI::App& app) {
       ->check(is_tick_range());
   app.add_flag("--all", options->shown.all, "With --table: all cells and all ticks, changed or not")->needs(table);
   add_engine_option(app, options->engine);
-  refuse_shared_standard_output(app, {trace, table});
+  refuse_shared_standard_output(app, {trace, table, html});
   return [options](Session& session) { return run(*options, session); };
 }
 

@@ -100,7 +100,8 @@ class Drive {
   /// Takes the next frames; returns false if they do not go on where the last ones ended.
   append(chunk) {
     if (chunk.first !== this.count) return false;
-    const take = (into, column, scale) => { for (const v of undelta(column, scale)) into.push(v); };
+    const unknown = new Array(chunk.count).fill(NaN);
+    const take = (into, column, scale) => { for (const v of column.length ? undelta(column, scale) : unknown) into.push(v); };
     take(this.t, chunk.t, 1e4), take(this.x, chunk.x, 1e3), take(this.y, chunk.y, 1e3), take(this.h, chunk.h, 1e3);
     const s = chunk.senses;
     s.line.forEach((column, i) => take(this.senses.line[i], column, 1e2));

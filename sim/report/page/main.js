@@ -8,6 +8,7 @@ class App {
     this.conditions = new Conditions(this.drive);
     this.frame = 0, this.fraction = 0;
     this.chosen = null;
+    document.body.classList.toggle('floorless', !this.drive.picture.landmarks.length), document.body.classList.toggle('legless', !this.drive.legs.length);
     this.floor = new FloorView(byId('floor'), this.drive, this.conditions);
     this.player = new Player(this);
     this.facts = new FactsView(this), this.satellites = new SatellitesView(this);
@@ -65,7 +66,7 @@ class App {
   }
   speak() {
     const drive = this.drive, frame = this.frame;
-    if (drive.count) set(byId('spoken'), `tick ${frame + 1}, ${drive.strategyName(frame) || 'no strategy'}, leg ${drive.leg.at(frame) || 'none'}, ${drive.status.at(frame)}`);
+    if (drive.count) set(byId('spoken'), `tick ${frame + 1}, ${drive.strategyName(frame) || 'no strategy'}, ${drive.legs.length ? `leg ${drive.leg.at(frame) || 'none'}, ` : ''}${drive.status.at(frame)}`);
     byId('floor').setAttribute('aria-label', `The labyrinth from above at ${clock(drive.t[frame])}: ${drive.strategyName(frame) || 'no strategy'}, at ${(drive.x[frame] || 0).toFixed(2)} m east, ${(drive.y[frame] || 0).toFixed(2)} m north`);
   }
 

@@ -1,0 +1,48 @@
+#include "tools/kbc/recorded_page.h"
+
+#include <limits>
+#include <utility>
+
+#include "sim/drive/mind_names.h"
+#include "sim/report/report.h"
+
+namespace kb::cli {
+
+RecordedPage::RecordedPage(const program::Program& program, std::string title) : program_(program) {
+  recording_.title = std::move(title);
+  recording_.names = sim::names_of(program);
+  for (const sim::MindNames::Cell& cell : recording_.names.cells) values_.push_back(cell.initial);
+}
+
+void RecordedPage::put(program::CellId cell, float value, sim::Frame& frame) {
+  float& last = values_[program::index(cell)];
+  if (last == value) return;
+  last = value;
+  frame.changed.push_back({static_cast<std::uint32_t>(cell), value});
+}
+
+bool RecordedPage::add(const program::Tick& tick, std::span<const float> facts, const trace::Engine& engine) {
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  if (recording_.frames.size() == kMostTicks) return false;
+  sim::Frame frame;
+  frame.t_s = static_cast<double>(tick.time_us) / 1e6;
+  frame.pose = {kNowhere, kNowhere, kNowhere};
+  for (std::uint32_t f = 0; f < facts.size(); ++f) put(program::CellId{f}, program::is_certainty(facts[f]) ? facts[f] : 0.0f, frame);
+  for (const program::CellValue& set : tick.set) put(set.cell, set.value, frame);
+  for (std::size_t s = values_.size() - program_.strategies; s < values_.size(); ++s) {
+    const auto strategy = static_cast<program::CellId>(s);
+    put(strategy, engine.value(strategy), frame);
+  }
+  if (tick.strategy != program::CellId::kNone) frame.strategy = static_cast<std::int32_t>(tick.strategy);
+  frame.status = program::status_text(tick.status);
+  sim::tell(tick, program_, frame);
+  recording_.frames.push_back(std::move(frame));
+  return true;
+}
+
+std::string RecordedPage::html(std::string outcome) {
+  recording_.outcome = std::move(outcome);
+  return sim::report::html(recording_);
+}
+
+}  // namespace kb::cli

@@ -1,0 +1,36 @@
+// A run on recorded facts as a page: see sim/report/report.h. There is no floor on it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compiler/program/program.h"
+#include "compiler/program/tick.h"
+#include "sim/recording.h"
+#include "tools/kbc/trace/engine.h"
+
+namespace kb::cli {
+
+class RecordedPage {
+ public:
+  /// A longer recording makes a page that no browser shows.
+  static constexpr std::uint64_t kMostTicks = 300'000;
+
+  /// `program` must outlive it.
+  RecordedPage(const program::Program& program, std::string title);
+  /// A tick that the engine has just made of these facts. False: there are too many. O(facts + strategies + changes).
+  [[nodiscard]] bool add(const program::Tick& tick, std::span<const float> facts, const trace::Engine& engine);
+  /// `outcome`: what stands beside the title.
+  [[nodiscard]] std::string html(std::string outcome);
+
+ private:
+  void put(program::CellId cell, float value, sim::Frame& frame);
+
+  const program::Program& program_;
+  sim::Recording recording_;
+  std::vector<float> values_;   // of all cells, as the last frame has them
+};
+
+}  // namespace kb::cli
