@@ -191,6 +191,7 @@ int run(const RunOptions& options, Session& session) {
   const auto engine = make_engine(kind, *compiled);
   trace::Senses senses(program, kind);
   Counts counts;
+  if (sinks.trace) input.bytes->before_read = [&] { sinks.trace->flush(); };   // for a program that writes facts and reads what they lead to
   if (!play(*input.reader, *engine, senses, program, sinks, counts, session, diagnostics)) return kErrors;
   if (Interrupts::came()) return kInterrupted;
   if (!has_ticks(options, sinks, counts, diagnostics) || !close_sinks(options, sinks, counts, session, diagnostics)) return kErrors;

@@ -19,7 +19,10 @@ constexpr std::size_t kInputBytes = std::size_t{256} * 1024;
 
 class FileStream final : public ByteStream {
  public:
-  FileStream(int file, bool owned, bool (*stop)()) : file_(file), owned_(owned), stop_(stop) {}
+  FileStream(int file, bool owned, bool (*stop)()) : file_(file), owned_(owned), stop_(stop) {
+    struct ::stat about {};
+    waits_ = ::fstat(file, &about) != 0 || !S_ISREG(about.st_mode);
+  }
   FileStream(const FileStream&) = delete;
   FileStream& operator=(const FileStream&) = delete;
   ~FileStream() override {
@@ -27,6 +30,7 @@ class FileStream final : public ByteStream {
   }
 
   std::size_t read(char* to, std::size_t size) override {
+    if (waits_ && before_read) before_read();
     for (;;) {
       const ::ssize_t got = ::read(file_, to, size);
       if (got >= 0) return static_cast<std::size_t>(got);
@@ -41,7 +45,7 @@ class FileStream final : public ByteStream {
 
  private:
   int file_;
-  bool owned_;
+  bool owned_, waits_ = true;
   bool (*stop_)();
   std::string error_;
 };

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,9 @@ class ByteStream {
   virtual std::size_t read(char* to, std::size_t size) = 0;
   /// Why reading stopped, in words; empty at a regular end.
   [[nodiscard]] virtual std::string error() const { return {}; }
+
+  /// Called before a read that may wait for whoever writes: who answers line by line hands over its answers here.
+  std::function<void()> before_read;
 };
 
 /// The file at `path`, or standard input for "-". Null if it cannot be opened; `error` then says why. If `stop` returns true after a
