@@ -46,7 +46,10 @@ Families families(const model::Model& model, const Program& program) {
     for (const CellId cell : members) found.groups[cell].push_back(group);
     ++group;
   }
-  for (const model::RowId row : model.rows_of("Landmark")) found.landmarks.insert(cell_of[model::index(model[row].cell)]);
+  for (const model::RowId row : model.rows_of("Landmark")) {
+    const model::CellId cell = model[row].cell;
+    if (cell != model::CellId::kNone) found.landmarks.insert(cell_of[model::index(cell)]);   // a row that is no part of a map has none
+  }
   return found;
 }
 
