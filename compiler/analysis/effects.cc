@@ -1,5 +1,6 @@
 // Reports effects that are overridden, have no effect, are repeated, or undo what made the rule fire.
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -206,39 +207,40 @@ void diagnose_lowered_in_vain(Subject& subject) {
   });
 }
 
-bool same(const Rule& a, const Rule& b) {
-  return a.level == b.level && a.mode == b.mode && a.condition == b.condition && program::same_effects(a, b);
-}
+/// Equal for rules that are `same`. Many rules may have one condition, and write different things.
+struct HashOfRule {
+  std::size_t operator()(const Rule* rule) const {
+    std::uint64_t hash = 0;
+    const auto add = [&](std::uint64_t part) { hash = (hash ^ part) * 0x9E3779B97F4A7C15u, hash ^= hash >> 32; };
+    add(program::index(rule->condition));
+    add(std::uint64_t{rule->level} << 2 | (rule->mode == program::Mode::kWhile ? 2u : 0u) | (rule->reset ? 1u : 0u));
+    for (const program::Write& write : rule->writes) add(program::index(write.cell)), add(std::bit_cast<std::uint32_t>(write.value));
+    for (const std::uint32_t group : rule->clears) add(group);
+    return static_cast<std::size_t>(hash);
+  }
+};
+struct SameRule {
+  bool operator()(const Rule* a, const Rule* b) const { return a->level == b->level && a->mode == b->mode && a->condition == b->condition && program::same_effects(*a, *b); }
+};
 
 void diagnose_duplicates(Subject& subject) {
   const Program& program = subject.program;
-  constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-  std::vector<std::uint32_t> first_of(program.conds.size(), kNone);    // by condition: the first rule with it
-  std::vector<std::uint32_t> next_of(program.rules.size(), kNone);     // by rule: the next one with the same condition
+  std::unordered_map<const Rule*, RuleId, HashOfRule, SameRule> first_of;   // of rules that are the same
   ByFamily<RuleId> found(subject);
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];
     if (writes_nothing(rule)) continue;
-    std::uint32_t& first = first_of[program::index(rule.condition)];
-    std::uint32_t twin = first;
-    while (twin != kNone && !same(program.rules[twin], rule)) twin = next_of[twin];
-    if (twin == kNone) {
-      next_of[i] = first;
-      first = i;
-    } else if (!(program.rules[twin].span == rule.span)) {  // instances of one rule: see KB1060, unused-binder
-      found.add(RuleId{i}, RuleId{twin});
-    }
+    const auto [twin, fresh] = first_of.try_emplace(&rule, RuleId{i});
+    if (!fresh && program[twin->second].span != rule.span) found.add(RuleId{i}, twin->second);   // instances of one rule: see KB1060, unused-binder
   }
   found.for_each([&](RuleId id, RuleId twin, std::uint32_t count) {
     const Rule& rule = program[id];
     const Rule& first = program[twin];
     // If a rule of the user and one of the library repeat each other, the message is about the user's.
     const bool here = !rule.standard || first.standard;
-    auto message =
-        subject.diagnostics.report(Kind::kDuplicateRule, here ? rule.span : first.span,
-                                   {here ? rule.name : first.name, here ? first.name : rule.name, more(count)});
-    if (first.span != rule.span)
-      message.note(Kind::kOtherRuleHere, here ? first.span : rule.span, {here ? first.name : rule.name});
+    subject.diagnostics
+        .report(Kind::kDuplicateRule, here ? rule.span : first.span, {here ? rule.name : first.name, here ? first.name : rule.name, more(count)})
+        .note(Kind::kOtherRuleHere, here ? first.span : rule.span, {here ? first.name : rule.name});
   });
 }
 
