@@ -28,7 +28,7 @@ class LastingQuestions {
   explicit LastingQuestions(const Subject& subject)
       : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), satisfier_(program_, subject.domains, subject.confusions.get()),
         lowered_(program_.cells.size(), false), raised_once_(program_.cells.size(), false), spared_by_clears_(program_.cells.size()), raised_by_resets_(program_.cells.size()),
-        dead_(program_.cells.size(), RuleId::kNone), clears_(program_.exclusive.size()) {
+        dead_(program_.cells.size(), RuleId::kNone), dead_clears_(program_.exclusive.size()), clears_(program_.exclusive.size()) {
     find_strategies();
     for (const auto& cells : program_.exclusive) {
       wanting_group_.push_back(std::any_of(cells.begin(), cells.end(), [this](CellId cell) { return wanting(cell); }));
@@ -113,17 +113,26 @@ class LastingQuestions {
 
   void count_dead(RuleId id) {
     const Rule& rule = program_[id];
-    if (rule.reset) dead_reset_ = id;
+    if (rule.reset) dead_resets_.push_back(id);
     for (const std::uint32_t group : rule.clears) {
-      if (!wanting_group_[group]) continue;
-      for (const CellId cell : program_.exclusive[group]) dead_[program::index(cell)] = id;
+      if (wanting_group_[group]) dead_clears_[group].push_back(id);
     }
-    for (const program::Write& write : rule.writes) dead_[program::index(write.cell)] = write.value < firing_ ? id : RuleId::kNone;
+    for (const program::Write& write : rule.writes) {
+      if (write.value < firing_) dead_[program::index(write.cell)] = id;
+    }
   }
 
+  /// A rule that can never fire and would lower the satellite, if there is one.
   [[nodiscard]] RuleId dead_lowering(CellId satellite) const {
-    const RuleId known = dead_[program::index(satellite)];
-    return known == RuleId::kNone && !program_[satellite].keep ? dead_reset_ : known;
+    if (const RuleId known = dead_[program::index(satellite)]; known != RuleId::kNone) return known;
+    const auto lowers_it = [&](RuleId id) { return program::net_value(program_, subject_.group_of, program_[id], satellite).value_or(firing_) < firing_; };
+    const auto last_of = [&](const std::vector<RuleId>& rules) {   // a rule of these may raise the satellite
+      const auto found = std::find_if(rules.rbegin(), rules.rend(), lowers_it);
+      return found != rules.rend() ? *found : RuleId::kNone;
+    };
+    const std::uint32_t group = subject_.group_of[program::index(satellite)];
+    const RuleId clears = group == program::kNoGroup ? RuleId::kNone : last_of(dead_clears_[group]);
+    return clears != RuleId::kNone ? clears : last_of(dead_resets_);
   }
 
   /// Fills `wants_` and `starved_`. A strategy can starve another only if one of lower priority can be wanted as well, or is the idle one.
@@ -178,11 +187,12 @@ class LastingQuestions {
   float firing_;
   Satisfier satisfier_;
   std::uint32_t resets_ = 0;
-  RuleId dead_reset_ = RuleId::kNone;                                // of the rules that can never fire, one that resets
+  std::vector<RuleId> dead_resets_;                                  // of the rules that can never fire, those that reset
   std::vector<bool> lowered_;                                        // by cell: a rule writes less than `firing` to it
   std::vector<bool> raised_once_;                                    // by cell: a `when` rule raises it
   std::vector<std::uint32_t> spared_by_clears_, raised_by_resets_;   // by cell: how many rules clear its group and do not lower it, or reset and raise it
-  std::vector<RuleId> dead_;                                         // by cell: of the rules that can never fire, one that lowers it
+  std::vector<RuleId> dead_;                                         // by cell: of the rules that can never fire, one that lowers it by name
+  std::vector<std::vector<RuleId>> dead_clears_;                     // by group: of the rules that can never fire, those that clear it
   std::vector<std::uint32_t> clears_;                                // by group: how many rules clear it
   std::vector<CellId> wants_;                                        // by satellite: the strategy that it makes wanted, if that can starve another
   std::vector<CellId> starved_;                                      // by strategy: the one that it can starve
