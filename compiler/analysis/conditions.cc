@@ -8,6 +8,7 @@
 #include "compiler/analysis/subject.h"
 #include "compiler/program/conditions.h"
 #include "compiler/program/interpret.h"
+#include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
 namespace {
@@ -218,10 +219,11 @@ class ConditionQuestions {
     return truth;
   }
 
-  /// Whether the rule's effects change the state of start-up. If not, it may well fire there.
+  /// Whether the rule's effects change the state of start-up. If not, it may well fire there. A `reset` by itself puts that state back.
   [[nodiscard]] bool changes_start(const Rule& rule) const {
-    return std::any_of(rule.writes.begin(), rule.writes.end(),
-                       [this](const program::Write& write) { return write.value != program_[write.cell].initial; });
+    bool changes = false;
+    program::for_each_net_write(program_, rule, [&](program::CellId cell, float value) { changes = changes || value != program_[cell].initial; });
+    return changes;
   }
 
   void diagnose_start() {
