@@ -8,8 +8,10 @@
 // contested cell or group are put into buckets by the member that they demand, of the group that separates most of them.
 // Only writers in one bucket are compared with each other, and all writers with the few that demand no member. For each
 // pair the demands that follow without search are compared first (compatible); only then a search looks for a moment at
-// which both can fire (Satisfier). If a contested cell has too many pairs, or far more were found to disagree than are shown, the
-// analysis reports that and gives up on the cell.
+// which both can fire (Satisfier). If a contested cell has too many pairs, the analysis reports that and gives up on the cell; if all of
+// them have, or far more were found to disagree than are shown, it gives up on the rest and reports that once for each level.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -141,6 +143,8 @@ class ConflictQuestions {
     for (const auto& [thing, contest] : contests) {
       if (contest.raised && contest.lowered && contest.writers.size() > 1) search_contest(thing, contest.writers);
     }
+    if (!gave_up_.empty()) report_incomplete(program_.rules[begin].level, gave_up_);
+    gave_up_ = {};
     for_each_write_of(begin, end, [&](std::uint32_t, std::uint32_t thing, bool, bool) { contested_[thing] = 0; });
     demands_.clear();
     demanded_ = 0;
@@ -189,8 +193,12 @@ class ConflictQuestions {
   /// See note [conflict buckets].
   void search_contest(std::uint32_t thing, const std::vector<Writer>& writers) {
     const Key key = best_key(writers);
+    if (key.pairs > kMostPairs) return report_incomplete(program_.rules[writers.front().rule].level, fmt::format("too many of them write `{}`", name_of(thing)));
+    if (pairs_ + key.pairs > kMostPairsInAll) {
+      gave_up_ = "too many of them write the same cells";
+      return;
+    }
     pairs_ += key.pairs;
-    if (key.pairs > kMostPairs || pairs_ > kMostPairsInAll) return give_up(thing, program_.rules[writers.front().rule].level);
     reset_here_.clear();
     std::ranges::copy_if(reset_, std::back_inserter(reset_here_), [&](CellId cell) { return thing_of(cell) == thing; });
     std::map<std::uint32_t, std::vector<Writer>> buckets;
@@ -210,7 +218,6 @@ class ConflictQuestions {
       }
     }
     compare_all(thing, unkeyed);
-    if (found_.size() >= kMostFindings) give_up(thing, program_.rules[writers.front().rule].level);
   }
 
   /// Each with all later ones, but those that do not raise with those that do only.
@@ -230,11 +237,15 @@ class ConflictQuestions {
     }
   }
 
-  void give_up(std::uint32_t thing, std::uint32_t level) {
+  /// The name of the cell, or of the first member of the group.
+  [[nodiscard]] std::string_view name_of(std::uint32_t thing) const {
     const std::size_t cells = program_.cells.size();
-    const CellId cell = thing < cells ? CellId{thing} : program_.exclusive[thing - cells].front();
+    return program_[thing < cells ? CellId{thing} : program_.exclusive[thing - cells].front()].name;
+  }
+
+  void report_incomplete(std::uint32_t level, std::string_view why) {
     const auto place = level < subject_.model.level_spans.size() ? subject_.model.level_spans[level] : source::Span{};
-    subject_.diagnostics.report(Kind::kAnalysisIncomplete, place, {program_.levels[level], program_[cell].name});
+    subject_.diagnostics.report(Kind::kAnalysisIncomplete, place, {program_.levels[level], why});
   }
 
   /// A cell of `thing` that `a` raises by name and `b` lowers. If `b` lowers it by raising another member, that is `other`.
@@ -279,7 +290,11 @@ class ConflictQuestions {
   void compare(std::uint32_t thing, std::uint32_t first, std::uint32_t second) {
     const Rule& a = program_.rules[first];
     const Rule& b = program_.rules[second];
-    if (a.reset != b.reset || found_.size() >= kMostFindings) return;  // a reset silences the others
+    if (a.reset != b.reset) return;  // a reset silences the others
+    if (found_.size() >= kMostFindings) {
+      gave_up_ = "more pairs of rules disagree than are shown";
+      return;
+    }
     const std::pair families{subject_.family[first], subject_.family[second]};
     const auto known = found_.find(families);
     if (known != found_.end() && (known->second.pairs.size() >= kMostCounted || known->second.pairs.contains({first, second}))) return;
@@ -348,6 +363,7 @@ class ConflictQuestions {
   std::vector<CellId> reset_;                            // ascending: what rules with `reset` also write in this level
   std::vector<CellId> reset_here_;                       // those of this contest
   std::uint64_t pairs_ = 0;
+  std::string_view gave_up_;                             // why conflicts of this level that may be left are not looked for; empty if none are
   std::map<std::pair<std::uint32_t, std::uint32_t>, Finding> found_;  // by families
 };
 

@@ -176,7 +176,7 @@ control Greet = greet()
   const Strings said = messages(said_of(text));
   ASSERT_EQ(said.size(), 1u) << ::testing::PrintToString(said);
   EXPECT_EQ(said[0],
-            "KB1040 level `goal` has too many rules that write `sat Greet` to look for conflicts between all of them");
+            "KB1040 not all conflicts between rules of level `goal` are looked for: too many of them write `sat Greet`");
 }
 
 }  // namespace
