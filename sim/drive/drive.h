@@ -62,7 +62,7 @@ class Drive {
   [[nodiscard]] bool outlasted(const Action& action) const;
   void begin(const Event& event);
   void end(const Event& event);
-  void perform(const Action& action);
+  void perform(const Action& action, std::int64_t since_us = -1);
   void press(program::CellId fact, bool held);
   void release(program::CellId fact);
   void switch_power(bool on);
@@ -95,7 +95,8 @@ class Drive {
   bool powered_ = true, waits_ = false;       // power is off; it is on again, and the robot waits for a button
   struct Pending { double at_s = 0.0; const Event* event = nullptr; bool undo = false; };
   Whereabouts before_;                        // one tick before what the judge has seen last
-  struct EventState { bool triggered = false, happened = false, no_room = false; };
+  struct EventState { bool triggered = false, happened = false, no_room = false; std::int64_t at_us = 0; };
+  [[nodiscard]] EventState& state_of(const Event& event) { return state_[static_cast<std::size_t>(&event - scenario_.events.data())]; }
   std::vector<EventState> state_;             // by event
   std::vector<Pending> pending_;              // triggered and not yet done, or done and not yet undone
   std::vector<const Event*> in_force_;        // those that hold a thing, in the order in which they happened

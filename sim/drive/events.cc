@@ -132,10 +132,11 @@ bool Drive::has_room(const Action& action) const {
 }
 
 void Drive::begin(const Event& event) {
-  EventState& state = state_[static_cast<std::size_t>(&event - scenario_.events.data())];
+  EventState& state = state_of(event);
   state.no_room = !has_room(event.action);
   if (state.no_room) return;
   state.happened = true;
+  state.at_us = now_us_;
   act(event.action, event.text);
   if (held_by(event.action) != Held::kNone && !restores(event.action)) in_force_.push_back(&event);
   if (event.undo) pending_.push_back({time_s() + event.lasts_s, &event, true});
@@ -153,7 +154,7 @@ void Drive::end(const Event& event) {
   const auto before = std::find_if(in_force_.rbegin(), in_force_.rend(), same);
   if (changed) return;
   if (before == in_force_.rend()) return act(*event.undo, event.undo_text);
-  if (held_by(event.action) != Held::kObstacle) perform((*before)->action);   // an obstacle stays where it is
+  if (held_by(event.action) != Held::kObstacle) perform((*before)->action, state_of(**before).at_us);   // an obstacle stays where it is
 }
 
 void Drive::press(program::CellId fact, bool held) {
@@ -189,7 +190,8 @@ void Drive::act(const Action& action, const std::string& text) {
   if (!outlasted(action)) notes_.push_back(text);
 }
 
-void Drive::perform(const Action& action) {
+/// `since_us`: since when the action has held, if it is not new.
+void Drive::perform(const Action& action, std::int64_t since_us) {
   using Kind = Action::Kind;
   stands_s_ = 0.0;
   switch (action.kind) {
@@ -214,7 +216,7 @@ void Drive::perform(const Action& action) {
     case Kind::kWear: floor_.wear_off({action.road, action.from_m, action.to_m, action.cause}); break;
     case Kind::kMend: floor_.mend(action.road, action.cause); break;
     case Kind::kTag: floor_.set_tag(action.crossing, action.arm, action.tag, action.instead); break;
-    case Kind::kSensor: sensors_.set_fault(action.sensor, action.element, action.fault, action.amount); break;
+    case Kind::kSensor: sensors_.set_fault(action.sensor, action.element, action.fault, action.amount, since_us); break;
     case Kind::kKidnap:
       arena_.put(action.pose);
       wheels_.halt();

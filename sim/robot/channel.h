@@ -12,7 +12,7 @@ namespace kb::sim {
 enum class Fault : std::uint8_t {
   kNone,
   kDead,      ///< says nothing
-  kStuck,     ///< repeats its last value for ever
+  kStuck,     ///< repeats its last value for ever, also after power was lost
   kNoisy,     ///< its noise is `amount` times as large
   kDelayed,   ///< is heard `amount` seconds later
   kOffset,    ///< its values are `amount` too large
@@ -53,7 +53,6 @@ class Channel {
   /// The newest sample that can have been heard by now; null if there is none, or the sensor is dead.
   [[nodiscard]] const Sample* heard(std::int64_t now_us) const {
     if (taken_ == 0 || fault_ == Fault::kDead) return nullptr;
-    if (fault_ == Fault::kStuck) return &samples_[(taken_ - 1) % kKept];
     const std::int64_t behind_us = latency_us_ + delay_us_ - (now_us - last_us_);
     const std::int64_t behind = behind_us <= 0 ? 0 : (behind_us + period_us_ - 1) / period_us_;
     const auto back = std::min<std::uint64_t>(static_cast<std::uint64_t>(behind), kKept - 2);
@@ -66,8 +65,15 @@ class Channel {
     delay_us_ = fault == Fault::kDelayed ? static_cast<std::int64_t>(amount * 1e6) : 0;
   }
   [[nodiscard]] float noise_factor() const { return noise_factor_; }
-  /// Forgets all samples, as when power is lost.
-  void clear() { taken_ = 0; }
+  /// Forgets all samples, as when power is lost. A stuck sensor takes no others, so it keeps the last one.
+  void clear() {
+    if (fault_ != Fault::kStuck || taken_ == 0) {
+      taken_ = 0;
+      return;
+    }
+    samples_[0] = samples_[(taken_ - 1) % kKept];
+    taken_ = 1;
+  }
 
  private:
   static constexpr double kLongestUs = 1e15;   // some 30 years; a sensor with a longer period samples once

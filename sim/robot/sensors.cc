@@ -95,7 +95,8 @@ void Sensors::sample_line(std::int64_t now_us, const Pose& pose, const Floor& fl
     const float dark = floor.darkness(Spot{pose.x_m, pose.y_m} + turned(where, ahead), spot_m);
     const float noise = spread * line_random_.bell();
     const float value = static_cast<float>(kBright) + static_cast<float>(kDark - kBright) * dark + line_bias_[i] + noise;
-    line[i] = std::clamp(spoil(line_whole_, spoil(line_elements_[i], value, noise, now_us), noise, now_us), 0.0f, 1.0f);
+    const float spoilt = spoil(line_whole_, spoil(line_elements_[i], value, noise, now_us), noise, now_us);
+    line[i] = line_elements_[i].fault == Fault::kDead ? 0.0f : std::clamp(spoilt, 0.0f, 1.0f);
   }
   line_.take(now_us, line);
 }
@@ -193,14 +194,14 @@ void Sensors::hear_tag(std::int64_t now_us, TagHeard& tag) const {
   tag.arm = sample->arm;
 }
 
-void Sensors::set_fault(SensorId sensor, std::optional<std::uint32_t> element, Fault fault, double amount) {
+void Sensors::set_fault(SensorId sensor, std::optional<std::uint32_t> element, Fault fault, double amount, std::int64_t since_us) {
   if (element && (sensor == SensorId::kLine || sensor == SensorId::kRange)) {
     Element& one = sensor == SensorId::kLine ? line_elements_[*element] : range_elements_[*element];
-    one = {fault, static_cast<float>(amount), one.last, -1};
+    one = {fault, static_cast<float>(amount), one.last, since_us};
     return;
   }
   const bool of_values = fault == Fault::kOffset || fault == Fault::kDrift || fault == Fault::kSpikes;
-  const Element whole{of_values ? fault : Fault::kNone, static_cast<float>(amount), 0.0f, -1};
+  const Element whole{of_values ? fault : Fault::kNone, static_cast<float>(amount), 0.0f, since_us};
   if (sensor == SensorId::kLine) line_whole_ = whole;
   if (sensor == SensorId::kRange) range_whole_ = whole;
   if (sensor == SensorId::kCompass) compass_whole_ = whole;

@@ -56,13 +56,14 @@ class Sensors {
   void hear(std::int64_t now_us, mts::Senses& senses) const;
   void hear_tag(std::int64_t now_us, TagHeard& tag) const;
 
-  /// Gives a fault, from now on, to a sensor or to one element of an array (`line`, `range`).
-  void set_fault(SensorId sensor, std::optional<std::uint32_t> element, Fault fault, double amount);
+  /// Gives a fault to a sensor or to one element of an array (`line`, `range`). `since_us`: when the fault began, if it was there
+  /// before, which counts for a drift; negative: it begins now.
+  void set_fault(SensorId sensor, std::optional<std::uint32_t> element, Fault fault, double amount, std::int64_t since_us = -1);
   /// Places steel in the floor or beside the road: within `radius_m` the compass points too far clockwise, by `degrees` in the middle
   /// and less farther out. Steel of the same name is moved.
   void place_steel(const std::string& name, Spot at, double radius_m, double degrees);
   void remove_steel(const std::string& name);
-  /// Forgets all samples, as when power is lost. Odometry begins again at (0, 0).
+  /// Forgets all samples, as when power is lost: see Channel::clear. Odometry begins again at (0, 0).
   void clear();
 
  private:
@@ -73,7 +74,7 @@ class Sensors {
   struct Element {
     Fault fault = Fault::kNone;
     float amount = 1.0f, last = 0.0f;
-    std::int64_t since_us = -1;   // the first sample with this fault
+    std::int64_t since_us = -1;   // when the fault began; negative until the first sample with it
   };
   struct Steel { std::string name; Spot at; double radius_m = 0.0, rad = 0.0; };
 

@@ -123,6 +123,20 @@ TEST(Drive, AnEventThatEndsLeavesWhatAnEarlierOneHolds) {
   EXPECT_EQ(notes_of(dead + noisy), "1 sensor line dead\n2 sensor line noisy\n") << "it is not well again";
 }
 
+TEST(Drive, ADriftGoesOnUnderAFaultThatEnds) {
+  const std::string exact = "limit = 20\n[sensors.compass]\nnoise = 0\nbias = 0\n", drift = "sensor = \"compass\"\nfault = \"drift\"\namount = 0.02";
+  const auto heading_at_10_s = [&](const std::string& faults) {
+    const Scenario scenario = route1().scenario(exact + event("19", "press = \"Start1\"") + event("1", drift) + faults);
+    Recording recording;
+    (void)route1().drive(scenario, &recording);
+    for (const Frame& frame : recording.frames) {
+      if (frame.t_s >= 10.0) return frame.senses.heading_rad;
+    }
+    return 0.0f;
+  };
+  EXPECT_NEAR(heading_at_10_s(event("5", "sensor = \"compass\"\nfault = \"noisy\"\nfor = 2")), heading_at_10_s(""), 0.001);
+}
+
 TEST(Drive, WhatIsRestoredIsNotRestoredOnceMore) {
   const auto sensor = [](const std::string& fault, const std::string& lasts) { return "sensor = \"range\"\nfault = \"" + fault + "\"" + lasts; };
   EXPECT_EQ(notes_of(event("1", sensor("dead", "\nfor = 9")) + event("3", sensor("none", "")) + event("5", sensor("stuck", ""))),

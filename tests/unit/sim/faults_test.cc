@@ -62,6 +62,27 @@ TEST(SensorFaults, AnOffsetShiftsOneElementOrAllOfThemUntilItIsOver) {
   EXPECT_NEAR(senses.range_m[6], 0.3f, 1e-3f);
 }
 
+TEST(SensorFaults, ADeadElementOfAnArrayThatIsOffSaysNothing) {
+  for (const Fault fault : {Fault::kOffset, Fault::kDrift}) {
+    Standing robot;
+    robot.sensors.set_fault(SensorId::kLine, 2, Fault::kDead, 1.0);
+    robot.sensors.set_fault(SensorId::kLine, {}, fault, 0.3);
+    const mts::Senses senses = robot.after(1.0);
+    EXPECT_EQ(senses.line[2], 0.0f);
+    EXPECT_GT(senses.line[1], 0.3f);
+  }
+}
+
+TEST(SensorFaults, ADriftThatWasThereBeforeGoesOn) {
+  Standing robot;
+  robot.sensors.set_fault(SensorId::kRange, {}, Fault::kDrift, 0.05);
+  static_cast<void>(robot.after(1.0));
+  robot.sensors.set_fault(SensorId::kRange, {}, Fault::kDead, 1.0);
+  static_cast<void>(robot.after(1.0));
+  robot.sensors.set_fault(SensorId::kRange, {}, Fault::kDrift, 0.05, 0);
+  EXPECT_NEAR(robot.after(1.0).range_m[2], 0.45f, 0.005f);
+}
+
 TEST(SensorFaults, ADriftGrowsWithTime) {
   Standing robot;
   robot.sensors.set_fault(SensorId::kRange, 2, Fault::kDrift, 0.05);

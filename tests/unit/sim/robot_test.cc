@@ -56,6 +56,25 @@ TEST(Channel, IsHeardAfterItsLatencyAndItsFaultsDoWhatTheySay) {
   EXPECT_EQ(channel.heard(2'000'000), nullptr);
 }
 
+TEST(Channel, AStuckSensorIsHeardAfterItsLatencyAndOutlastsAPowerCut) {
+  Channel<int> channel({10.0, 0.25, 0.0, 0.0});
+  for (int t = 1; t <= 10; ++t) channel.take(t * 100'000, t);
+  EXPECT_EQ(*channel.heard(1'000'000), 7);
+  channel.set_fault(Fault::kStuck, 1.0);
+  EXPECT_EQ(*channel.heard(1'000'000), 7) << "what it said before it was stuck is under way";
+  EXPECT_EQ(*channel.heard(1'160'000), 9);
+  EXPECT_EQ(*channel.heard(1'250'000), 10);
+  channel.clear();
+  EXPECT_FALSE(channel.due(5'000'000));
+  EXPECT_EQ(*channel.heard(5'000'000), 10);
+  channel.set_fault(Fault::kNone, 1.0);
+  channel.clear();
+  EXPECT_EQ(channel.heard(5'000'000), nullptr);
+  channel.set_fault(Fault::kStuck, 1.0);
+  channel.clear();
+  EXPECT_EQ(channel.heard(6'000'000), nullptr) << "it has never said anything";
+}
+
 TEST(Channel, TheLongestDelayOfTheFastestSensorIsNotCut) {
   Channel<int> channel({100.0, 1.0, 0.0, 0.0});
   channel.set_fault(Fault::kDelayed, 2.0);
