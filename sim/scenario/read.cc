@@ -180,26 +180,39 @@ bool check_start(const Scenario& scenario, const Names& names, const model::Mode
   return false;
 }
 
-/// Where the robot is when an event happens, if that is certain: at its start before anything is pressed, or at the place that the event
-/// waits for.
-std::optional<Spot> robot_at(const Event& event, double pressed_s, const Scenario& scenario, const Labyrinth& labyrinth) {
+/// The earliest moment at which such an action can happen: an event that waits for something else than the clock may happen at once.
+double earliest_s(const Scenario& scenario, Action::Kind kind) {
+  double earliest = 1e9;
+  for (const Event& event : scenario.events) {
+    if (event.action.kind != kind) continue;
+    earliest = std::min(earliest, event.when.kind == Trigger::Kind::kTime ? event.when.time_s + event.when.delay_s : 0.0);
+  }
+  return earliest;
+}
+
+/// Where the robot is when an event happens, if that is certain: at its start before anything is pressed or the robot is carried off, or at
+/// the place that the event waits for, unless it may be carried off there.
+std::optional<Spot> robot_at(const Event& event, const Scenario& scenario, const Labyrinth& labyrinth) {
   const Trigger& when = event.when;
-  if (when.kind == Trigger::Kind::kTime && when.time_s + when.delay_s <= pressed_s) return Spot{scenario.start.x_m, scenario.start.y_m};
+  if (when.kind == Trigger::Kind::kTime) {
+    const double at_s = when.time_s + when.delay_s;
+    const bool stands = at_s <= earliest_s(scenario, Action::Kind::kPress) && at_s < earliest_s(scenario, Action::Kind::kKidnap);
+    return stands ? std::optional(Spot{scenario.start.x_m, scenario.start.y_m}) : std::nullopt;
+  }
   if (when.kind != Trigger::Kind::kPlace || when.delay_s > 0.0) return std::nullopt;
+  const bool carried = std::any_of(scenario.events.begin(), scenario.events.end(), [&](const Event& other) {
+    return other.action.kind == Action::Kind::kKidnap && other.when.kind == Trigger::Kind::kPlace && other.when.road == when.road;
+  });
+  if (carried) return std::nullopt;
   const Road& road = labyrinth[when.road];
   return point_on(road.along, road.begins_m + when.along_m).at;
 }
 
 bool check_obstacles(const Scenario& scenario, const Labyrinth& labyrinth, Diagnostics& diagnostics) {
-  double pressed_s = 1e9;
-  for (const Event& event : scenario.events) {
-    const bool presses = event.action.kind == Action::Kind::kPress;
-    if (presses) pressed_s = event.when.kind == Trigger::Kind::kTime ? std::min(pressed_s, event.when.time_s + event.when.delay_s) : 0.0;
-  }
   bool good = true;
   for (const Event& event : scenario.events) {
     if (event.action.kind != Action::Kind::kObstacle) continue;
-    const auto robot = robot_at(event, pressed_s, scenario, labyrinth);
+    const auto robot = robot_at(event, scenario, labyrinth);
     const double gap_m = robot ? distance(*robot, event.action.obstacle.at) - event.action.obstacle.radius_m - static_cast<double>(scenario.body.radius_m) : 0.0;
     if (gap_m >= 0.0) continue;
     diagnostics.report(Kind::kSimOnRobot, event.at, {event.action.obstacle.name, fmt::format("{:.2f}", -gap_m)});
