@@ -25,6 +25,7 @@ std::string float_constant(float value) {
 
 std::string membership_row(const mts::Membership& m) {
   constexpr std::string_view kProfiles[] = {"kLinear", "kGaussian", "kBell", "kSigmoid"};
+  static_assert(std::size(kProfiles) == static_cast<std::size_t>(mts::Profile::kSigmoid) + 1);
   const auto f = float_constant;
   return fmt::format("{{mts::Profile::{}, {}, {}, {}, {}, {}, {}, {}}}", kProfiles[static_cast<std::size_t>(m.profile)], f(m.centre),
                      f(m.period), f(m.low), f(m.high), f(m.rise), f(m.fall), f(m.slope));

@@ -35,6 +35,7 @@ void emit_class(const fuzzy::Controller& c, const FuzzyNames& names, const table
 
 std::string combine(mts::FuzzyCombine how) {
   constexpr std::string_view kNames[] = {"kAverage", "kAverageAbout", "kSum", "kWinner"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(mts::FuzzyCombine::kWinner) + 1);
   return fmt::format("mts::FuzzyCombine::{}", kNames[static_cast<std::size_t>(how)]);
 }
 

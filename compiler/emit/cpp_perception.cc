@@ -111,6 +111,7 @@ class SensesPrinter {
 
   void steps() {
     constexpr std::string_view kWords[] = {"kFits", "kReads", "kFact", "kNot", "kAnd", "kOr"};
+    static_assert(std::size(kWords) == static_cast<std::size_t>(mts::PerceptOp::kOr) + 1);
     line("constexpr mts::PerceptStep<Senses::Index> kSteps[] = {{");
     for (std::size_t f = 0; f < form_.fact.size(); ++f) {
       line("    // {} = {}", in_.program.cells[form_.fact[f]].name, program::percept_text(in_.program, from_.perceived[f].percept));

@@ -15,6 +15,10 @@ namespace {
 using program::CellKind;
 using program::Program;
 
+template <class A, class B>
+constexpr bool alike(A a, B b) { return static_cast<int>(a) == static_cast<int>(b); }
+static_assert(alike(program::Idle::kStop, mts::Idle::kStop) && alike(program::Idle::kHold, mts::Idle::kHold) && alike(program::Idle::kStrategy, mts::Idle::kStrategy));
+
 constexpr int kCrowded = 4;   ///< added to an atom's rank (see `rarity`) if very many rules read it
 
 class TableBuilder {

@@ -26,6 +26,12 @@ struct Machine::Impl {
 
 namespace {
 
+constexpr bool same_status(program::Status a, mts::Status b) { return static_cast<int>(a) == static_cast<int>(b); }
+static_assert(same_status(program::Status::kOk, mts::Status::kOk) && same_status(program::Status::kNoStrategy, mts::Status::kNoStrategy) &&
+              same_status(program::Status::kHolding, mts::Status::kHolding) && same_status(program::Status::kHoldExpired, mts::Status::kHoldExpired) &&
+              same_status(program::Status::kBadFact, mts::Status::kBadFact) && same_status(program::Status::kConflict, mts::Status::kConflict) &&
+              same_status(program::Status::kTwoStrategies, mts::Status::kTwoStrategies));
+
 template <class Id, class Index>
 std::vector<Id> sorted(const Index* list, std::uint32_t count) {
   std::vector<Id> out;

@@ -183,6 +183,7 @@ std::string print(const PerceptionForm& form, const Program& program) {
                        sensor.text ? '"' + sensor.texts[prototype - 1] + '"' : from.prototypes[prototype].text);
   }
   constexpr std::string_view kWords[] = {"fits ", "reads ", "fact ", "not", "and", "or"};
+  static_assert(std::size(kWords) == static_cast<std::size_t>(mts::PerceptOp::kOr) + 1);
   for (I i = 0; i < form.shape.facts; ++i) {
     out += fmt::format("perceive {}:", program.cells[form.fact[i]].name);
     for (I s = form.steps_begin[i]; s < form.steps_begin[i + 1]; ++s) {

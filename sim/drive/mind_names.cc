@@ -15,10 +15,14 @@ std::vector<std::uint32_t> numbers(const auto& ids) {
   return out;
 }
 
+constexpr bool alike(program::CellKind a, MindNames::Cell::Kind b) { return static_cast<int>(a) == static_cast<int>(b); }
+static_assert(alike(program::CellKind::kFact, MindNames::Cell::Kind::kFact) && alike(program::CellKind::kSatellite, MindNames::Cell::Kind::kSatellite) &&
+              alike(program::CellKind::kStrategy, MindNames::Cell::Kind::kStrategy));
+
 MindNames::Cell cell_of(const program::Cell& cell) {
   MindNames::Cell out;
   out.name = cell.name;
-  out.kind = static_cast<MindNames::Cell::Kind>(cell.kind);   // both list the kinds in the same order
+  out.kind = static_cast<MindNames::Cell::Kind>(cell.kind);
   out.initial = cell.initial;
   out.command = cell.command;
   out.keep = cell.keep;

@@ -32,8 +32,15 @@ const std::array<Spot, 3 * mts::kRangeFinders>& rays() {
 }  // namespace
 
 SensorBuild& SensorBuilds::operator[](SensorId id) {
-  SensorBuild* const all[] = {&line, &range, &compass, &odometry, &tag, &bumper};
-  return *all[static_cast<std::size_t>(id)];
+  switch (id) {
+    case SensorId::kLine: return line;
+    case SensorId::kRange: return range;
+    case SensorId::kCompass: return compass;
+    case SensorId::kOdometry: return odometry;
+    case SensorId::kTag: return tag;
+    case SensorId::kBumper: return bumper;
+  }
+  return bumper;
 }
 
 Sensors::Sensors(const SensorBuilds& builds, std::uint64_t seed, const mts::Body& body)

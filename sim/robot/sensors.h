@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,7 +20,8 @@
 namespace kb::sim {
 
 enum class SensorId : std::uint8_t { kLine, kRange, kCompass, kOdometry, kTag, kBumper };
-inline constexpr std::array<std::string_view, 6> kSensorNames{"line", "range", "compass", "odometry", "tag", "bumper"};
+inline constexpr auto kSensorNames = std::to_array<std::string_view>({"line", "range", "compass", "odometry", "tag", "bumper"});   // in this order
+static_assert(kSensorNames.size() == static_cast<std::size_t>(SensorId::kBumper) + 1);
 
 /// The build of each sensor. Noise and bias are in the unit of the sensor: darkness, m, rad, a share of the way, a share of
 /// the readings that fail, -.

@@ -27,7 +27,7 @@ struct Standing {
 
   static SensorBuilds exact() {
     SensorBuilds builds;
-    for (int i = 0; i < 6; ++i) {
+    for (std::size_t i = 0; i < kSensorNames.size(); ++i) {
       SensorBuild& build = builds[static_cast<SensorId>(i)];
       build.noise = build.bias = build.latency_s = 0.0;
     }
