@@ -81,7 +81,8 @@ std::string print(const Tables& t, const program::Program& p) {
     fmt::format_to(out, "fact {} {} plain={} attended={}\n", f, p.cells[f].name, a.plain, a.attended);
   }
   for (std::uint32_t s = 0; s < n.satellites; ++s) {
-    fmt::format_to(out, "satellite {} {} initial={}\n", n.facts + s, p.cells[n.facts + s].name, t.initial[s]);
+    const bool keep = (t.keep[s / mts::kWordBits] >> s % mts::kWordBits & 1u) != 0;
+    fmt::format_to(out, "satellite {} {} initial={}{}\n", n.facts + s, p.cells[n.facts + s].name, t.initial[s], keep ? " keep" : "");
   }
   for (std::uint32_t l = 0; l < n.levels; ++l) {
     const auto& level = t.levels[l];
