@@ -33,6 +33,12 @@ struct ControllerEntry {
   bool ends;                 ///< it comes to an end, which `done()` reports
 };
 
+/// Whether it crosses halls, where no roads lead. Where there is no hall to cross such a controller stands.
+[[nodiscard]] constexpr bool crosses_halls(ControllerId id) noexcept {
+  using Id = ControllerId;
+  return id == Id::kBug || id == Id::kPotential || id == Id::kFollowRules || id == Id::kNeuralMap || id == Id::kGenetic;
+}
+
 /// The parameter of manoeuvres that is not a gain: it goes into the task.
 inline constexpr Parameter kTurnParameter{"turn", "", 2.0f, 0.0f, 3.0f, "how the crossing is driven; else as the task says",
                                           Values::kTurn};

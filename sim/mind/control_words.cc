@@ -80,11 +80,6 @@ void check_argument(const program::Control& control, const program::Control::Arg
                                                           same_unit ? text_of(argument.number, *parameter) : fmt::format("{:g} {}", argument.number, argument.unit)});
 }
 
-bool crosses_halls(mts::ControllerId id) {
-  using Id = mts::ControllerId;
-  return id == Id::kBug || id == Id::kPotential || id == Id::kFollowRules || id == Id::kNeuralMap || id == Id::kGenetic;
-}
-
 /// Whether a strategy may drive outside of halls. A `Move` does only if the map has roads of its method; otherwise it does not count, as it
 /// may just share its control line with other strategies.
 bool drives_elsewhere(const Strategy& strategy, const Labyrinth& labyrinth) {

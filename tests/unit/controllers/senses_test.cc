@@ -113,11 +113,6 @@ TEST(EveryController, StandsWhenItIsToldNothingAtAll) {
   }
 }
 
-/// They stand where there is none.
-bool crosses_halls(ControllerId id) {
-  return id == ControllerId::kBug || id == ControllerId::kPotential || id == ControllerId::kNeuralMap || id == ControllerId::kGenetic;
-}
-
 TEST(HoldHeading, StandsWhenItHasGoneTooFarWithoutCompassThoughTheWheelsOnceSaidNoNumber) {
   AnyController controller;
   controller.choose(ControllerId::kHoldHeading, {.has_range_finders = false});
