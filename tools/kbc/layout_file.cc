@@ -1,7 +1,6 @@
 #include "tools/kbc/layout_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <unordered_set>
 #include <utility>
 
@@ -58,10 +57,7 @@ std::optional<layout::Map> read_layout(const LayoutImport& how, source::Sources&
 }
 
 std::string name_fault(const std::string& text) {
-  const auto in_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-  const bool good = !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 && std::all_of(text.begin(), text.end(), in_name);
-  const bool word = std::find(syntax::words().begin(), syntax::words().end(), text) != syntax::words().end();
-  return good && !word ? "" : "`" + text + "` is no name: letters, digits and `_`, a letter first, and no word of the language";
+  return syntax::is_name(text) ? "" : "`" + text + "` is no name: letters, digits and `_`, no digit first, and no word of the language";
 }
 
 }  // namespace kb::cli
