@@ -52,13 +52,4 @@ inline constexpr std::array<double, 8> kMoveLengths = {1.0, kSqrt2, 1.0, kSqrt2,
   return dx < dy ? dy + (kSqrt2 - 1.0) * dx : dx + (kSqrt2 - 1.0) * dy;
 }
 
-/// The direction from a cell to one of its eight neighbours; -1 if `to` is not one of them.
-[[nodiscard]] constexpr int direction_between(Cell from, Cell to) {
-  for (int k = 0; k < 8; ++k) {
-    const Cell step = kDirections[static_cast<std::size_t>(k)];
-    if (from.x + step.x == to.x && from.y + step.y == to.y) return k;
-  }
-  return -1;
-}
-
 }  // namespace kb::planners

@@ -138,11 +138,6 @@ class Packer {
   FuzzyForm to_;
 };
 
-struct RowDegrees {
-  const FuzzyForm& form;
-  float operator()(std::uint32_t degree, float x) const { return mts::mu(form.terms[form.term_of_degree[degree]], x); }
-};
-
 // Like FuzzyScratch, with a size that is known only at run time.
 struct Room {
   std::vector<float> degrees;
@@ -227,15 +222,6 @@ FuzzyAnswer evaluate(const FuzzyForm& form, std::span<const float> x) {
   answer.outputs.resize(form.outputs.size());
   answer.status = mts::evaluate(view(form), inputs.data(), answer.outputs.data(), seen);
   return answer;
-}
-
-fuzzy::Outcome<float> interpret_float(const fuzzy::Controller& controller, const FuzzyForm& form, const std::vector<float>& x) {
-  using Wrap = float (*)(float, float, float);
-  using Root = float (*)(float);
-  const Wrap wrap = [](float value, float low, float period) { return mts::wrapped(value, low, period); };
-  const Root root = [](float value) { return mts::square_root(value); };
-  fuzzy::Interpreter<float, RowDegrees, Wrap, Root> run(controller, {form}, wrap, root);
-  return run(x);
 }
 
 std::size_t bytes(const FuzzyForm& form) {

@@ -8,7 +8,6 @@
 
 #include <waymark/runtime/fuzzy.h>
 #include "compiler/fuzzy/controller.h"
-#include "compiler/fuzzy/interpret.h"
 
 namespace kb::tables {
 
@@ -42,9 +41,6 @@ struct FuzzyAnswer {
   mts::FuzzyStatus status = mts::FuzzyStatus::kOk;
 };
 [[nodiscard]] FuzzyAnswer evaluate(const FuzzyForm& form, std::span<const float> x);
-
-/// The interpreter of compiler/fuzzy in float, over the runtime's membership functions: the evaluator must give the same.
-[[nodiscard]] fuzzy::Outcome<float> interpret_float(const fuzzy::Controller& controller, const FuzzyForm& form, const std::vector<float>& x);
 
 /// Size of the constants in bytes.
 [[nodiscard]] std::size_t bytes(const FuzzyForm& form);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compiler/tables/fuzzy.h"
+#include "tests/unit/fuzzy/float_interpreter.h"
 #include "tests/unit/fuzzy/random_controller.h"
 
 namespace kb::emitted {
@@ -48,7 +49,7 @@ bool agrees(std::uint64_t seed) {
     const std::vector<float> x(exact.begin(), exact.end());
     const auto straight = F::evaluate(inputs<F>(x));
     const auto walked = F::evaluate_tables(inputs<F>(x));
-    const auto expected = tables::interpret_float(controller, form, x);
+    const auto expected = fuzzy::testing::interpret_float(controller, form, x);
     const bool status = straight.status == walked.status && static_cast<int>(straight.status) == static_cast<int>(expected.status);
     if (status && same_bits(outputs<F>(straight, count), expected.outputs) && same_bits(outputs<F>(walked, count), expected.outputs)) continue;
     std::printf("seed %llu, point %llu: status %d %d %d\n", static_cast<unsigned long long>(seed), static_cast<unsigned long long>(n),

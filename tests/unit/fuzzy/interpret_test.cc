@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "compiler/tables/fuzzy.h"
+#include "tests/unit/fuzzy/float_interpreter.h"
 #include "tests/unit/fuzzy/random_controller.h"
 
 namespace kb::fuzzy {
@@ -26,7 +27,7 @@ TEST(Evaluator, GivesTheBitsOfTheFloatInterpreter) {
     for (std::uint64_t n = 0; n < 60; ++n) {
       const std::vector<double> wide = random_inputs(controller, seed * 1'000 + n, n % 2 == 1);
       const std::vector<float> x(wide.begin(), wide.end());
-      const auto expected = tables::interpret_float(controller, form, x);
+      const auto expected = testing::interpret_float(controller, form, x);
       const auto found = tables::evaluate(form, x);
       ASSERT_EQ(static_cast<int>(found.status), static_cast<int>(expected.status)) << seed << " " << n;
       for (std::size_t o = 0; o < found.outputs.size(); ++o) {

@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Genetic, Operators, ::testing::Bool(), [](const auto& p
 
 bool is_legal(const Grid& grid, const Walk& walk, bool waits) {
   for (std::size_t i = 0; i + 1 < walk.size(); ++i) {
-    const int direction = direction_between(grid.cell(walk[i]), grid.cell(walk[i + 1]));
+    const int direction = testing::direction_between(grid.cell(walk[i]), grid.cell(walk[i + 1]));
     if (direction < 0 ? !waits || walk[i] != walk[i + 1] : !grid.can_move(grid.cell(walk[i]), direction)) return false;
   }
   return !walk.empty();

@@ -78,9 +78,9 @@ TEST(Directions, turn_counter_clockwise_by_45_degrees) {
   for (int k = 0; k < 8; ++k) {
     const Cell step = kDirections[static_cast<std::size_t>(k)];
     EXPECT_NEAR(wrap_angle(std::atan2(step.y, step.x) - k * kPi / 4), 0.0, 1e-12);
-    EXPECT_EQ(direction_between({3, 3}, Cell{3, 3} + step), k);
+    EXPECT_EQ(testing::direction_between({3, 3}, Cell{3, 3} + step), k);
   }
-  EXPECT_EQ(direction_between({0, 0}, {2, 0}), -1);
+  EXPECT_EQ(testing::direction_between({0, 0}, {2, 0}), -1);
 }
 
 }  // namespace

@@ -212,7 +212,7 @@ double least_cost(const Grid& grid, const Movers& movers, const TimedQuestion& q
 double cost_of(const std::vector<Cell>& walk) {
   double cost = 0.0;
   for (std::size_t i = 1; i < walk.size(); ++i) {
-    const int k = direction_between(walk[i - 1], walk[i]);
+    const int k = testing::direction_between(walk[i - 1], walk[i]);
     cost += k < 0 ? 1.0 : kMoveLengths[static_cast<std::size_t>(k)];
   }
   return cost;

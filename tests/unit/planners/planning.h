@@ -15,6 +15,15 @@ namespace kb::planners::testing {
 [[nodiscard]] Grid draw(const std::vector<std::string_view>& rows);
 [[nodiscard]] Cell find(const std::vector<std::string_view>& rows, char letter);
 
+/// The direction from a cell to one of its eight neighbours; -1 if `to` is not one of them.
+[[nodiscard]] constexpr int direction_between(Cell from, Cell to) {
+  for (int k = 0; k < 8; ++k) {
+    const Cell step = kDirections[static_cast<std::size_t>(k)];
+    if (from.x + step.x == to.x && from.y + step.y == to.y) return k;
+  }
+  return -1;
+}
+
 /// Each cell blocked with the chance `share`.
 [[nodiscard]] Grid random_grid(std::int32_t width, std::int32_t height, double share, std::uint64_t seed);
 

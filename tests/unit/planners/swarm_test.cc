@@ -53,7 +53,7 @@ TEST(Swarm, never_has_two_robots_in_a_cell_nor_any_that_pass_through_each_other)
         left[grid.index(before[i])] = static_cast<int>(i);
         if (now[i] == before[i]) continue;
         ++changed;
-        const int k = direction_between(before[i], now[i]);
+        const int k = testing::direction_between(before[i], now[i]);
         ASSERT_TRUE(k >= 0 && grid.can_move(before[i], k)) << "no legal move";
       }
       ASSERT_EQ(changed, moved);
