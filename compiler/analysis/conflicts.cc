@@ -8,8 +8,8 @@
 // contested cell or group are put into buckets by the member that they demand, of the group that separates most of them.
 // Only writers in one bucket are compared with each other, and all writers with the few that demand no member. For each
 // pair the demands that follow without search are compared first (compatible); only then a search looks for a moment at
-// which both can fire (Satisfier). If a contested cell has too many pairs, the analysis reports that and gives up on the cell; if all of
-// them have, or far more were found to disagree than are shown, it gives up on the rest and reports that once for each level.
+// which both can fire (Satisfier). If a contested cell has too many pairs, the analysis reports that and gives up on the cell. If all
+// cells together have, or more rules were found to disagree than are shown, it gives up on the rest and reports that once for each level.
 #include <fmt/format.h>
 
 #include <algorithm>
