@@ -34,7 +34,8 @@ constexpr std::array kCommands = {
     Command{"test", "Compare golden traces with what happens now",
             "A case is a file NAME.facts.csv or NAME.readings.csv beside a knowledge base; NAME.trace.jsonl holds the expected trace. "
             "If the knowledge base is elsewhere, or is one of several, the first line of the case names it, relative to the case's "
-            "folder: `# kb: ../mission.kb`. `kbc sim --facts` writes that line.",
+            "folder: `# kb: ../mission.kb`. `kbc sim --facts` writes that line. After `# compare: strategy status` only these keys of a trace are compared, and kept; "
+            "so a rule may get another name.",
             "kbc test tests                                  # all cases in a folder and below\n"
             "kbc test tests --filter 'detour*'               # those with such names\n"
             "kbc test tests --update                         # accept what happens now, then look at the difference\n"

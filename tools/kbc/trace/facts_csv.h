@@ -74,6 +74,8 @@ class FactsReader {
 
   [[nodiscard]] bool failed() const { return failed_; }
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
+  /// After `open`.
+  [[nodiscard]] const FactsOptions& options() const { return options_; }
 
  private:
   static constexpr std::uint32_t kTimeColumn = 0xFFFFFFFFu;

@@ -1,6 +1,7 @@
 #include "tools/kbc/trace/facts_options.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -11,8 +12,25 @@
 namespace kb::trace {
 namespace {
 
+/// What a tick of a trace has besides its number and time.
+constexpr std::array<std::string_view, 8> kTraceKeys{"strategy", "status", "events", "lost", "fired", "set", "conflicts", "cf"};
+
 bool is_given(std::string_view key, const FactsOptions& options) {
+  if (key == "compare") return !options.compare.empty();
   return key == "kb" ? !options.program.empty() : key == "empty" ? options.steady.has_value() : key == "dt" ? options.dt_us.has_value() : options.every_us.has_value();
+}
+
+/// The keys that are named, with blanks or commas between them. Empty if one of them is none.
+std::vector<std::string_view> trace_keys(std::string_view text) {
+  std::vector<std::string_view> keys;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" ,"), text.size());
+    const auto key = std::find(kTraceKeys.begin(), kTraceKeys.end(), text.substr(0, end));
+    if (key == kTraceKeys.end()) return {};
+    keys.push_back(*key);
+    text.remove_prefix(std::min(text.find_first_not_of(" ,", end), text.size()));
+  }
+  return keys;
 }
 
 void take(std::string_view key, std::string_view value, FactsOptions& options, OptionItem& item) {
@@ -27,6 +45,10 @@ void take(std::string_view key, std::string_view value, FactsOptions& options, O
     options.steady = value == "as before";
     item.wanted = "`as before` or `no data`";
     item.good = value == "as before" || value == "no data";
+  } else if (key == "compare") {
+    options.compare = trace_keys(value);
+    item.wanted = "made of `strategy status events lost fired set conflicts cf`";
+    item.good = !options.compare.empty();
   } else {
     std::optional<std::uint32_t>& time = key == "dt" ? options.dt_us : options.every_us;
     time = parse_duration(value);
@@ -38,14 +60,21 @@ void take(std::string_view key, std::string_view value, FactsOptions& options, O
 /// The key that a misspelt key was meant to be. Ignored like any other comment, it would change the meaning of the whole file.
 std::string_view slip_in(std::string_view key) {
   if (diagnostics::is_slip_of(key, "empty")) return "`empty`";
+  if (diagnostics::is_slip_of(key, "compare")) return "`compare`";
   return diagnostics::is_slip_of(key, "every") ? "`every`" : "";
 }
 
-/// Where the option at `at` ends: at a comma. The name of a knowledge base may have commas, and ends in `.kb`.
+/// Where the option at `at` ends: at a comma. The name of a knowledge base may have commas, and ends in `.kb`; the keys to compare may be parted by
+/// commas, and end before the next option.
 std::size_t end_of_option(std::string_view line, std::size_t at) {
   const std::size_t comma = std::min(line.find(',', at), line.size());
   const std::string_view text = line.substr(at);
-  if (source::trimmed(text.substr(0, text.find(':'))) != "kb") return comma;
+  const std::string_view name = source::trimmed(text.substr(0, text.find(':')));
+  if (name == "compare") {
+    const std::size_t next = line.find(':', at + text.find(':') + 1);
+    return next == line.npos ? line.size() : std::max(comma, line.rfind(',', next));
+  }
+  if (name != "kb") return comma;
   for (std::size_t end = comma;; end = std::min(line.find(',', end + 1), line.size())) {
     if (source::trimmed(line.substr(at, end - at)).ends_with(".kb")) return end;
     if (end == line.size()) return comma;
@@ -78,7 +107,7 @@ std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions&
       items.push_back({first, first + static_cast<std::uint32_t>(key.size()), false, meant, false});
       return items;
     }
-    if (key != "dt" && key != "kb" && key != "empty" && key != "every") return items;
+    if (key != "dt" && key != "kb" && key != "empty" && key != "every" && key != "compare") return items;
     const std::string_view value = source::trimmed(text.substr(colon + 1));
     const auto begin = static_cast<std::uint32_t>(value.data() - line.data());
     OptionItem item;

@@ -113,12 +113,14 @@ End compare(FactsReader& reader, Player& player, const program::Program& program
       diagnostics.report(Kind::kEnginesDisagree, {}, {fmt::format("{}", tick.number), player.disagreement()});
       return End::kReported;
     }
-    const std::string line = print_json(program, tick);
+    const std::string line = with_keys(print_json(program, tick), reader.options().compare);
     if (written != nullptr) {
       written->write(line);
       written->write("\n");
     }
-    differ.compare(expected.next(line), line);
+    const auto known = expected.next(line);
+    const std::string wanted = known ? with_keys(*known, reader.options().compare) : std::string();
+    differ.compare(known ? std::optional<std::string_view>(wanted) : std::nullopt, line);
     if (expected.failed()) return End::kReported;
   }
   if (reader.failed()) return End::kReported;

@@ -16,9 +16,10 @@ using nlohmann::json;
 // A tick nests two levels deep. Deeper values were not written by kbc and are not followed.
 constexpr int kMaxDepth = 8;
 
-json parse(std::string_view line) {
-  return json::parse(
-      line, [](int depth, json::parse_event_t, json&) { return depth <= kMaxDepth; }, false);
+template <class Json = json>
+Json parse(std::string_view line) {
+  return Json::parse(
+      line, [](int depth, typename Json::parse_event_t, Json&) { return depth <= kMaxDepth; }, false);
 }
 
 /// `go`, 0.5; of a conflict "of `left`, `right` over `Turn`".
@@ -146,6 +147,17 @@ std::string summarise_tick(std::string_view line) {
   }
   if (const auto strategy = tick.find("strategy"); strategy != tick.end()) parts.push_back("runs " + shown(*strategy));
   return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string with_keys(std::string_view line, const std::vector<std::string_view>& keys) {
+  if (keys.empty()) return std::string(line);
+  const auto tick = parse<nlohmann::ordered_json>(line);
+  if (!tick.is_object()) return std::string(line);
+  nlohmann::ordered_json kept;
+  for (const auto& [key, value] : tick.items()) {
+    if (key == "tick" || key == "t" || std::find(keys.begin(), keys.end(), key) != keys.end()) kept[key] = value;
+  }
+  return kept.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 std::string tick_fault(std::string_view line) {

@@ -22,6 +22,9 @@ namespace kb::trace {
 /// Why a line is not a tick of a trace (not JSON, no object); empty if it is one.
 [[nodiscard]] std::string tick_fault(std::string_view line);
 
+/// The line with `tick`, `t` and these keys only; no keys: all of it. A line that is no tick stays as it is.
+[[nodiscard]] std::string with_keys(std::string_view line, const std::vector<std::string_view>& keys);
+
 /// Compares traces line by line, in constant memory.
 class TraceDiffer {
  public:
