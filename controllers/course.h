@@ -19,6 +19,7 @@ struct OnCourse {
   float curvature_1_m = 0.0f;   ///< kappa
   float along_m = 0.0f;         ///< from the beginning of the piece, along it; negative at the end of the bend before it
   float to_bend_m = 1e3f;       ///< to the beginning of the next bend
+  float bend_radius_m = 0.0f;   ///< R, of that bend or of the one that it is in; 0: it turns on the spot
   bool on_the_spot = false;     ///< the bend is so sharp that the robot turns on the spot in its corner
 };
 
@@ -51,6 +52,7 @@ class Course {
   constexpr void measure_bend() noexcept {
     tangent_m_ = 0.0f;
     bend_rad_ = 0.0f;
+    bend_radius_m_ = kStraight_m;
     spot_ = false;
     if (piece_ + 1 >= count_) return;
     bend_rad_ = wrapped_angle(pieces_[piece_ + 1].heading_rad - pieces_[piece_].heading_rad);
@@ -71,6 +73,7 @@ class Course {
     on.along_m = dx * ux + dy * uy;
     on.left_m = dy * ux - dx * uy;
     on.turned_rad = wrapped_angle(place.heading_rad - piece.heading_rad);
+    on.bend_radius_m = spot_ ? 0.0f : bend_radius_m_;
     if (piece_ + 1 < count_) on.to_bend_m = piece.length_m - tangent_m_ - on.along_m;
     return on;
   }
@@ -83,6 +86,7 @@ class Course {
     measure_bend();
   }
 
+  static constexpr float kStraight_m = 1e3f;   ///< the radius where the course goes straight on
   Piece pieces_[kLongestCourse] = {};
   std::size_t count_ = 0, piece_ = 0;
   float radius_m_ = 0.0f;
@@ -114,6 +118,7 @@ constexpr OnCourse Course::on_bend(const Place& place) const noexcept {
   on.left_m = side * (bend_radius_m_ - square_root(rx * rx + ry * ry));
   on.turned_rad = wrapped_angle(place.heading_rad - tangent_heading);
   on.curvature_1_m = side / bend_radius_m_;
+  on.bend_radius_m = bend_radius_m_;
   return on;
 }
 
@@ -151,13 +156,13 @@ struct CourseGains {
 };
 
 /// The motion from a place on the course. A robot turned away from it by more than 60 degrees turns on the spot.
-[[nodiscard]] constexpr Motion along_course(const OnCourse& on, float bend_radius_m, const CourseGains& gains) noexcept {
+[[nodiscard]] constexpr Motion along_course(const OnCourse& on, const CourseGains& gains) noexcept {
   constexpr float kTooFar = 60.0f * kRadPerDeg, kSpot_1_s = 4.0f;
   if (on.on_the_spot || magnitude(on.turned_rad) > kTooFar) {
     return {0.0f, clamped(-kSpot_1_s * on.turned_rad, -gains.turn_rad_s, gains.turn_rad_s)};
   }
   // In a bend, a part of the turning rate is kept for corrections.
-  const float in_bend = greatest(0.8f * gains.turn_rad_s * bend_radius_m, 0.05f);
+  const float in_bend = greatest(0.8f * gains.turn_rad_s * on.bend_radius_m, 0.05f);
   float speed = square_root(in_bend * in_bend + 2.0f * gains.slowing_m_s2 * greatest(on.to_bend_m, 0.0f));
   speed = least(speed, gains.speed_m_s) * (1.0f - 0.7f * magnitude(on.turned_rad) / kTooFar);
   const float l = gains.convergence_1_m;

@@ -95,7 +95,7 @@ class Crossing {
   [[nodiscard]] Motion steer(const Senses& senses) noexcept {
     look_for_end(senses);
     if (!begun_ || done_ || lost_) return {};
-    return braked(along_course(on_, gains_.bend_radius_m, {gains_.speed_m_s, gains_.convergence_1_m, gains_.turn_rad_s, 0.8f}),
+    return braked(along_course(on_, {gains_.speed_m_s, gains_.convergence_1_m, gains_.turn_rad_s, 0.8f}),
                   senses, body_);
   }
 

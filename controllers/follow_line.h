@@ -5,7 +5,7 @@
 //   v      = speed / (1 + |y| / y_half + |omega| / omega_half), at least a quarter of `speed`: slow in bends
 //
 // The row lies L ahead of the wheels, so y' = -L omega - v psi and psi' = omega. With kp alone, s^2 + kp L s + kp v = 0: the damping is
-// L sqrt(kp / v) / 2 = 0.64 at the defaults and 0.4 m/s, and more with kd.
+// L sqrt(kp / v) / 2 = 0.62 at the defaults and 0.4 m/s; with kd it is (L kp + v kd) / (2 sqrt(v kp (1 + L kd))) = 0.64.
 //
 // If the line is gone, what happens depends on where it was last. If it was last seen at a side, or had an arm to a side within the last
 // 8 cm (a corner), the robot turns to that side while it creeps ahead, until it sees the line or has turned by `search_angle`. If it was

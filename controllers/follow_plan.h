@@ -64,7 +64,7 @@ class FollowPlan {
     if (course_.empty()) return {};
     const OnCourse on = course_.at(hall_.at());
     const CourseGains how{gains.speed_m_s, 7.0f, gains.turn_rad_s, 0.6f};
-    return braked(along_course(on, kBend_m, how), senses, body, 0.03f);
+    return braked(along_course(on, how), senses, body, 0.03f);
   }
 
   [[nodiscard]] bool done() const noexcept { return hall_.past(); }

@@ -78,7 +78,7 @@ class Hall {
     OnCourse course;
     course.left_m = on.y_m;
     course.turned_rad = on.heading_rad;
-    return braked(along_course(course, 0.0f, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body_);
+    return braked(along_course(course, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body_);
   }
   /// Whether the robot has stood before a door, in it, or where the stop line behind it should be, for so long that it must have missed the
   /// door: after a long way it knows less well where it is.

@@ -55,7 +55,7 @@ class HoldHeading {
     over_ = course_.on_last() && on.along_m > course_.current().length_m + gains.overrun_m;
     if (over_) return {};
     const CourseGains how{gains.speed_m_s, gains.convergence_1_m, gains.turn_rad_s, 0.6f};
-    return braked(along_course(on, gains.bend_radius_m, how), senses, body);
+    return braked(along_course(on, how), senses, body);
   }
 
   [[nodiscard]] bool done() const noexcept { return false; }

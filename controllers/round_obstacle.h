@@ -85,7 +85,7 @@ class RoundObstacle {
     if (phase_ == Phase::kBack && (idle_s_ > 1.0f || hemmed_in(senses))) take_hand(on.along_m);   // the obstacle still stands there, or another does
     if (phase_ == Phase::kBack) {
       done_ = magnitude(on.left_m) < 0.03f && magnitude(on.turned_rad) < 6.0f * kRadPerDeg;
-      return done_ ? Motion{} : one_.clear(braked(along_course(on, kBend_m, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body), reckoning_.at, body);
+      return done_ ? Motion{} : one_.clear(braked(along_course(on, {gains.speed_m_s, 8.0f, gains.turn_rad_s, 0.6f}), senses, body), reckoning_.at, body);
     }
     return braked(one_.step(senses, reckoning_.at, dt, how, body), senses, body);
   }

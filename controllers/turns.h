@@ -29,7 +29,7 @@ class TurnByCompass {
 /// By the painted lines that meet in the middle of the crossing.
 ///
 /// Across: on a straight piece, a line under the row at y to the left says that the robot is e = -y - L psi to the left of the line (L: how
-/// far the row lies ahead). Along: an arm of the line to a side says that the row has reached the middle. An arm that comes in from the end
+/// far the row lies ahead). The reckoned place follows it with a time constant of 80 ms, the heading with 8 rad/s for each metre. Along: an arm of the line to a side says that the row has reached the middle. An arm that comes in from the end
 /// of the row belongs to a road at a sharp angle, and says how far the middle still is. One that grows out of the middle belongs to a fork,
 /// and says how far the row has come since. Up to 7 cm of line beyond the reckoned middle say that the middle is farther.
 ///
@@ -112,7 +112,7 @@ class TurnOnLine {
     const float off = -line.left_m - body.line_ahead_m * on.turned_rad - on.left_m;
     if (magnitude(off) > greatest(kAside_m, body.line_sensor_left_m(0))) return;
     crossing_.correct(off * (dt / (kPlaceTau_s + dt)), 0.0f);
-    crossing_.reckoning.correct_heading(clamped(-kHeading_rad_m_s * off * dt, -0.02f, 0.02f));
+    crossing_.reckoning.correct_heading(clamped(kHeading_rad_m_s * off * dt, -0.02f, 0.02f));   // who is farther to the left than reckoned also faces farther to the left
   }
 
   /// How far the row is before the middle when an arm has reached its second sensor, `since_m` of way after the first. The arm of a road

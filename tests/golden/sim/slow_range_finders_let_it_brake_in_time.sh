@@ -1,1 +1,1 @@
-# RUN: printf '[[event]]\nwhen = { time = 0 }\nobstacle = "crate"\nroad = "Dock.E"\nmetres = 1.6\nradius = 0.15\n' > %t/s.toml; kbc sim works.d/works.kb --scenario %t/s.toml --set sensors.range.latency=0.5 --expect "stopped: Help.blocked"
+# RUN: printf '[[event]]\nwhen = { time = 0 }\nobstacle = "crate"\nroad = "Dock.E"\nmetres = 1.6\nradius = 0.15\n' > %t/s.toml; kbc sim works.d/works.kb --scenario %t/s.toml --set sensors.range.latency=0.5 --expect "arrived at Store"

@@ -82,6 +82,27 @@ TEST(TurnByCompass, EndsOnTheStopLineOfTheExit) {
   expect_crossings<TurnByCompass>(Way::kCompass, {{0.03, 0.035, 0.05}, {3.0, 4.0, 6.0}}, true, {0.0, -2.0});
 }
 
+// What the line shows corrects the heading as well as the place: a robot that is led to the left by its compass finds itself to the left of the line.
+TEST(TurnOnLine, TheLineShowsThatTheCompassIsWrong) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    CrossingPlan plan;
+    plan.walls = false;
+    plan.span = 0.9;
+    Noise noise;
+    noise.compass_bias_rad = 5.0 * kDegree;   // at most, to either side
+    Plant plant(crossing_floor(plan), noise, seed);
+    plant.place(-0.54, 0.0, 0.0);
+    TurnOnLine controller;
+    Task task;
+    task.exit_known = task.entry_known = true;
+    task.crossing_m = 0.9f;
+    controller.start(task, plant.sense());
+    drive_until(controller, plant, 0.01, 15.0, [&](double) { return controller.done() || controller.lost(); });
+    ASSERT_TRUE(controller.done());
+    EXPECT_LT(std::fabs(plant.row().y), 0.008) << "seed " << seed;
+  }
+}
+
 /// A crossing 0.9 m across, whose size the task names, from the west.
 CrossingPlan wide_plan() {
   CrossingPlan plan;

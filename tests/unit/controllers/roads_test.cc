@@ -115,6 +115,27 @@ TEST(HoldHeading, DrivesTheCourseThatTheTaskTells) {
   }
 }
 
+// Between two bends that are near to each other both are sharper than they are meant to be, and are driven the more slowly.
+TEST(HoldHeading, StaysOnItsCourseBetweenBendsThatAreNearToEachOther) {
+  for (const float middle_m : {0.1f, 0.15f, 0.2f, 0.3f}) {
+    const Piece pieces[] = {{0.0f, 1.0f}, {static_cast<float>(std::numbers::pi / 2), middle_m}, {0.0f, 1.0f}};
+    Task task;
+    for (const Piece& piece : pieces) task.course[task.pieces++] = piece;
+    HoldHeading controller;
+    Course course;
+    course.start(pieces, 3, controller.gains.bend_radius_m, {});
+    Plant plant({}, {}, 1);
+    plant.place(0.0, 0.0, 0.0);
+    controller.start(task, plant.sense());
+    float worst_m = 0.0f;
+    drive_until(controller, plant, 0.01, 9.0, [&](double) {
+      worst_m = std::max(worst_m, std::fabs(course.at({static_cast<float>(plant.x), static_cast<float>(plant.y), static_cast<float>(plant.heading)}).left_m));
+      return controller.lost();
+    });
+    EXPECT_LT(worst_m, 0.026f) << middle_m;   // what the lag of the motors takes where they are not near to each other
+  }
+}
+
 /// The first time after which an offset stays within `band`, and the farthest that it went to the other side.
 struct Settling { double after_s = 0.0, overshoot_m = 0.0; };
 template <class Controller>
