@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <set>
 
+#include "sim/scenario/toml_keys.h"
+
 namespace kb::sim {
 namespace {
 
 bool is_value(const std::string& text) {
+  if (find_deep_key(text) < text.size()) return false;   // as the reader would refuse it
   try {
     return toml::parse("x = " + text).size() == 1;
   } catch (const toml::parse_error&) {

@@ -8,6 +8,7 @@
 #include "compiler/diagnostics/display.h"
 #include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
+#include "sim/scenario/toml_keys.h"
 
 namespace kb::sim {
 
@@ -46,6 +47,11 @@ std::optional<toml::table> parse_toml(source::FileId file, const TomlPlaces& pla
   }
   if (at < bytes.size()) {
     diagnostics.report(Kind::kLoneReturn, source::Span{file, at, at + 1});
+    return std::nullopt;
+  }
+  if (const std::size_t deep = find_deep_key(bytes); deep < bytes.size()) {
+    const auto point = static_cast<std::uint32_t>(deep);
+    diagnostics.report(Kind::kSimKeyDeep, source::Span{file, point, point + 1}, {fmt::format("{}", kMostKeyParts)});
     return std::nullopt;
   }
   try {
