@@ -28,6 +28,10 @@ std::string reason(int error) {
     case ENODEV: return "is not a regular file";
     case EOVERFLOW: return "is too large";
     case ENOMEM: return "out of memory";
+    case EBUSY: return "something else is mounted there, or holds it";
+    case EXDEV: return "lies on another file system";
+    case ETXTBSY: return "is a program that runs";
+    case EINVAL: return "the file system refuses this";
     case ECONNREFUSED: return "connection refused";
     case ECONNRESET: return "connection reset";
     case ETIMEDOUT: return "no answer in time";

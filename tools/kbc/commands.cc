@@ -8,7 +8,8 @@ namespace {
 constexpr std::array kCommands = {
     Command{"compile", "Compile a knowledge base to C++",
             "Writes NAME.kb.h, the typed interface to include, and NAME.kb.cc, the tables. Both appear together or not at "
-            "all: after an error, or when the disk is full, what was there before is untouched. In CMake, "
+            "all: after an error, when the disk is full, or when one of them cannot be replaced, what was there before is untouched. Only "
+            "if kbc is killed just while it moves them to their places, one may be new and the other old. In CMake, "
             "`kb_add_library(mission mission.kb)` calls this.",
             "kbc compile mission.kb                          # mission.kb.h and mission.kb.cc here\n"
             "kbc compile mission.kb --out generated          # in a folder, which is made\n"

@@ -317,10 +317,8 @@ bool Session::write_all_or_none(const std::vector<OutputFile>& files) {
   }
   flush_output();
   if (output_error_ != 0 && output_error_ != EPIPE) return false;   // reported by `finish`
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    if (files[i].path != "-" && !taken(i, staged[i].commit())) return false;
-  }
-  return true;
+  const auto refused = trace::OutputFile::commit_all(staged);
+  return !refused || taken(*refused, false);
 }
 
 int Session::deliver(const std::string& output, std::string bytes) {

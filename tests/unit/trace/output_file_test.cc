@@ -51,6 +51,23 @@ TEST_F(OutputFileTest, appears_when_it_is_committed_and_not_before) {
   EXPECT_EQ(files(), 1u);
 }
 
+// A folder that has come in between refuses the move, as a file does over which another is mounted.
+TEST_F(OutputFileTest, of_several_all_are_moved_or_none) {
+  make("a.h", "old"), make("a.cc", "old");
+  for (const bool refused : {true, false}) {
+    std::vector<OutputFile> outputs(4);   // the second one is not opened, as one that goes to standard output
+    ASSERT_TRUE(staged(outputs[0], path("new.h"), "new") && staged(outputs[2], path("a.h"), "new") && staged(outputs[3], path("a.cc"), "new"));
+    if (refused) fs::remove(path("a.cc")), fs::create_directory(path("a.cc"));
+    EXPECT_EQ(OutputFile::commit_all(outputs), refused ? std::optional<std::size_t>(3) : std::nullopt);
+    EXPECT_EQ(outputs[3].error(), refused ? "is a directory" : "");
+    EXPECT_EQ(read(path("a.h")), refused ? "old" : "new");
+    EXPECT_EQ(fs::exists(path("new.h")), !refused);
+    if (refused) fs::remove(path("a.cc")), make("a.cc", "old");
+  }
+  EXPECT_EQ(read(path("a.cc")), "new");
+  EXPECT_EQ(files(), 3u) << "another name of an old file was left";
+}
+
 TEST_F(OutputFileTest, that_is_given_up_leaves_no_trace) {
   make("a.h", "old");
   {

@@ -22,6 +22,7 @@ constexpr std::size_t kOutputBytes = std::size_t{64} * 1024;
 OutputFile::~OutputFile() {
   if (file_ > STDERR_FILENO) ::close(file_);
   if (!temporary_.empty() && !keep_) ::unlink(temporary_.c_str());
+  if (!old_.empty()) ::unlink(old_.c_str());
 }
 
 bool OutputFile::fail(int code) {
@@ -80,6 +81,7 @@ bool is_left_of(std::string_view file, std::string_view name) {
 // Opens a file beside the target, so that it can be moved there, with the rights of the old file, or those of any new file (mkostemp
 // makes it private).
 bool OutputFile::open_beside(bool exists, unsigned mode) {
+  is_new_ = !exists;
   temporary_ = target_ + "." + std::string(kRandom);
   file_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
   if (file_ < 0) {
@@ -134,7 +136,37 @@ bool OutputFile::commit() {
   if (temporary_.empty()) return true;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) return fail(errno);
   temporary_.clear();
+  moved_ = true;
   return true;
+}
+
+// Not by moving it away: then there would be no file for a moment.
+void OutputFile::keep_old() {
+  if (is_new_ || temporary_.empty()) return;
+  std::string name = target_ + "." + std::string(kRandom);
+  const int free = ::mkostemp(name.data(), O_CLOEXEC);
+  if (free < 0) return;
+  ::close(free);
+  ::unlink(name.c_str());
+  if (::link(target_.c_str(), name.c_str()) == 0) old_ = std::move(name);
+}
+
+void OutputFile::bring_back_old() {
+  if (!moved_) return;
+  if (is_new_) ::unlink(target_.c_str());
+  else if (!old_.empty() && ::rename(old_.c_str(), target_.c_str()) == 0) old_.clear();
+}
+
+std::optional<std::size_t> OutputFile::commit_all(std::span<OutputFile> files) {
+  const auto is_open = [](const OutputFile& file) { return file.staged_ || file.file_ >= 0; };
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!is_open(files[i])) continue;
+    if (files.size() > 1) files[i].keep_old();
+    if (files[i].commit()) continue;
+    for (OutputFile& before : files.first(i)) before.bring_back_old();
+    return i;
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> make_folders(const std::string& path) {

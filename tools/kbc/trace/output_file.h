@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,9 @@ namespace kb::trace {
 /// note [two phases of writing]
 /// A header and a source that belong together must not be left half new when the disk is full. So each output is first
 /// written under a temporary name beside its place and brought to disk (`stage`); only this can fail for want of room. When every output
-/// is staged, they are moved to their places (`commit`), which needs no room. Until then, and for good if anything fails, the old files
-/// stay untouched. "-" is standard output, written directly.
+/// is staged, they are moved to their places (`commit_all`), which needs no room. Until then, and for good if anything fails, the old files
+/// stay untouched. A move can still be refused, where something is mounted over the old file: then the files before it get back what they
+/// were. Only a process that is killed between two moves leaves new files beside old ones. "-" is standard output, written directly.
 class OutputFile {
  public:
   OutputFile() = default;
@@ -41,6 +43,9 @@ class OutputFile {
   [[nodiscard]] bool stage();
   /// Moves it to its name; stages it first if that was not done.
   [[nodiscard]] bool commit();
+  /// The same for files that belong together, without those that were not opened: all are moved or none. Nothing if they are, else the
+  /// place of the one that could not be. On a file system without hard links (FAT), the files moved before it stay new.
+  [[nodiscard]] static std::optional<std::size_t> commit_all(std::span<OutputFile> files);
   [[nodiscard]] const std::string& error() const { return error_; }
   /// Whether a write has failed; a producer of much output may then stop.
   [[nodiscard]] bool failed() const { return !error_.empty(); }
@@ -49,10 +54,13 @@ class OutputFile {
   bool open_beside(bool exists, unsigned mode);
   void put(std::string_view bytes);
   bool fail(int code);
+  void keep_old();
+  void bring_back_old();
   std::string target_, temporary_, error_;
+  std::string old_;   // another name of the file that was at the target; empty if there was none, or it cannot have another
   std::string buffer_;
   int file_ = -1;
-  bool staged_ = false, keep_ = false;
+  bool staged_ = false, keep_ = false, moved_ = false, is_new_ = false;
 };
 
 /// Whether `name` is a temporary name of `file` (both without folders), as a process leaves it that is killed while it writes. One in 200 of
