@@ -68,7 +68,7 @@ constexpr std::string_view kEnd =
     ".TP\n\\fBNO_COLOR\\fR\nIf set and not empty, messages have no colours.\n"
     ".SH EXIT STATUS\n"
     ".TP\n\\fB0\\fR\nClean.\n.TP\n\\fB1\\fR\nErrors were reported.\n"
-    ".TP\n\\fB2\\fR\nThe command line cannot be understood.\n.TP\n\\fB70\\fR\nA bug of kbc.\n.TP\n\\fB130\\fR\nInterrupted.\n";
+    ".TP\n\\fB2\\fR\nThe command line cannot be understood.\n.TP\n\\fB70\\fR\nA bug of kbc.\n.TP\n\\fB71\\fR\nOut of memory.\n.TP\n\\fB130\\fR\nInterrupted.\n";
 
 std::string page(const CommandLine::Entry& entry) {
   const std::string name = "kbc-" + entry.app->get_name();

@@ -94,7 +94,7 @@ constexpr std::string_view kFooter =
     "  kbc run robot.kb --facts drive.csv --table      # what would it decide?\n"
     "  kbc why robot.kb --facts drive.csv --tick 14    # and why?\n"
     "  kbc compile robot.kb --out generated            # as C++ for the robot\n\n"
-    "Exit codes: 0 clean, 1 errors reported, 2 the command line cannot be understood, 70 a bug of kbc, 130 interrupted.\n";
+    "Exit codes: 0 clean, 1 errors reported, 2 the command line cannot be understood, 70 a bug of kbc, 71 out of memory, 130 interrupted.\n";
 
 /// `command`: the command that was typed; null if there is none.
 int usage_error(const std::string& message, const CommandLine::Entry* command) {
@@ -254,10 +254,15 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
 int run_kbc_guarded(int argc, char** argv, Ranks* ranks) {
   hold_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);   // a file beyond the limit of the user is an output that cannot be written
+  return guarded([&] { return run_kbc(argc, argv, ranks); });
+}
+
+int guarded(const std::function<int()>& run) {
   try {
-    return run_kbc(argc, argv, ranks);
+    return run();
   } catch (const std::bad_alloc&) {
     std::fputs("kbc: error: out of memory\n", stderr);
+    return kOutOfMemory;
   } catch (const std::exception& bug) {
     std::fprintf(stderr,
                  "kbc: a bug of kbc " KB_VERSION ": %s\n"

@@ -54,6 +54,7 @@ enum ExitCode : int {
   kErrors = 1,   ///< errors were reported
   kUsage = 2,    ///< the command line cannot be understood
   kBug = 70,     ///< a bug of kbc
+  kOutOfMemory = 71,    ///< the system gave no more memory; what was to be written is as before
   kInterrupted = 130,   ///< an orderly end by Ctrl-C or SIGTERM; the code that shells give for SIGINT
 };
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
 #include <set>
+#include <stdexcept>
 
 #include "tools/kbc/run_kbc.h"
 
@@ -75,6 +77,13 @@ TEST(Commands, give_no_option_two_meanings) {
       }
     }
   }
+}
+
+TEST(Commands, that_run_out_of_memory_are_no_bug_of_kbc) {
+  const auto code_after = [](auto thrown) { return guarded([&]() -> int { throw thrown; }); };
+  EXPECT_EQ(code_after(std::bad_alloc()), kOutOfMemory);
+  EXPECT_EQ(code_after(std::logic_error("there is no such case")), kBug);
+  EXPECT_EQ(guarded([] { return static_cast<int>(kErrors); }), kErrors);
 }
 
 std::vector<std::string> warnings_of(std::vector<std::string> words) {

@@ -14,9 +14,9 @@ int main(int argc, char** argv) {
   }
   kb::cli::MpiRanks ranks;
   const int code = kb::cli::run_kbc_guarded(argc, argv, &ranks);
-  // An error on rank 0 is heard by all ranks, which end. After an error on another rank or a bug, the others would wait for ever.
+  // An error on rank 0 is heard by all ranks, which end. After an error on another rank or a bug, or without memory, the others would wait for ever.
   if (ranks.rank() != 0 && code == kb::cli::kErrors) MPI_Abort(MPI_COMM_WORLD, code);
-  if (code == kb::cli::kBug) MPI_Abort(MPI_COMM_WORLD, code);
+  if (code == kb::cli::kBug || code == kb::cli::kOutOfMemory) MPI_Abort(MPI_COMM_WORLD, code);
   ranks.settle();
   MPI_Finalize();
   return code;
