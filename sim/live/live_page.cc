@@ -1,9 +1,14 @@
 #include "sim/live/live_page.h"
 
+#include <arpa/inet.h>
 #include <httplib.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <filesystem>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,6 +28,9 @@ constexpr std::uint32_t kMostFrames = 5000;      // in one answer; a page that i
 constexpr std::size_t kMostWaiting = 1000;       // commands that nobody has fetched
 constexpr std::size_t kLongestCommand = 4096;    // bytes
 
+constexpr std::size_t kConnections = 32;         // served at a time; each has a thread
+constexpr time_t kLongestSilence_s = 2;          // of a browser in the middle of a request, and between two
+
 constexpr std::pair<std::string_view, Command::What> kWords[] = {{"close", Command::What::kCloseRoad}, {"open", Command::What::kOpenRoad},
                                                                  {"press", Command::What::kPress},     {"pause", Command::What::kPause},
                                                                  {"resume", Command::What::kResume}};
@@ -31,6 +39,20 @@ constexpr std::pair<std::string_view, Command::What> kWords[] = {{"close", Comma
 bool names_this_machine(std::string_view host) {
   const std::string_view name = host.substr(0, host.rfind(':'));
   return name == "127.0.0.1" || name == "localhost";
+}
+
+/// Ends the open connections to `port` of this machine. The library waits for the end of each, and has no call that ends one.
+void end_connections(std::uint16_t port) {
+  std::error_code unknown;
+  for (std::filesystem::directory_iterator at("/proc/self/fd", unknown), end; !unknown && at != end; at.increment(unknown)) {
+    const std::string name = at->path().filename().string();
+    int socket = -1;
+    std::from_chars(name.data(), name.data() + name.size(), socket);
+    sockaddr_in own{};
+    socklen_t size = sizeof own;
+    if (::getsockname(socket, reinterpret_cast<sockaddr*>(&own), &size) != 0) continue;
+    if (own.sin_family == AF_INET && own.sin_addr.s_addr == htonl(INADDR_LOOPBACK) && own.sin_port == htons(port)) ::shutdown(socket, SHUT_RDWR);
+  }
 }
 
 }  // namespace
@@ -130,6 +152,7 @@ LivePage::LivePage(const Recording& recording) : server_(std::make_unique<Server
 LivePage::~LivePage() {
   if (!server_->thread.joinable()) return;
   server_->http.stop();
+  end_connections(server_->port);
   server_->thread.join();
 }
 
@@ -137,6 +160,9 @@ bool LivePage::start(std::uint16_t port) {
   if (server_->thread.joinable()) return false;
   constexpr const char* kHere = "127.0.0.1";
   server_->http.set_payload_max_length(kLongestCommand);
+  server_->http.set_read_timeout(kLongestSilence_s);
+  server_->http.set_keep_alive_timeout(kLongestSilence_s);
+  server_->http.new_task_queue = [] { return new httplib::ThreadPool(kConnections); };   // the library deletes it
   // The default socket options of the library would let two programs share a port.
   server_->http.set_socket_options([](socket_t socket) {
     const int on = 1;

@@ -10,7 +10,8 @@
 //
 // Every user of this machine may open the page. It binds only to 127.0.0.1, answers only requests addressed to `127.0.0.1` or
 // `localhost` (so no foreign page can reach it under a host name of its own), and takes commands only as JSON, which a form on
-// another page cannot send. There is no other protection; do not forward the port.
+// another page cannot send. A connection that falls silent is ended after two seconds. There is no other protection: whoever sends a byte a
+// second on some thirty connections keeps others from the page, though not the drive from its end. Do not forward the port.
 #pragma once
 
 #include <cstdint>

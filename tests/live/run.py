@@ -4,13 +4,16 @@ at a hundredth of the speed.
 
   run.py KBC LIBRARY ROUTE
 """
+import contextlib
 import http.client
 import json
 import pathlib
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 KBC, LIBRARY, ROUTE = sys.argv[1:]
@@ -44,6 +47,39 @@ def until(holds, what):
         expect(time.monotonic() < end, what)
         time.sleep(0.05)
     print('ok:', what)
+
+
+def silent(port):
+    """A connection that says that a command comes, and then nothing."""
+    connection = socket.create_connection(('127.0.0.1', port), timeout=30)
+    connection.sendall(b'POST /live/command HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: 4000\r\n\r\n')
+    return connection
+
+
+def drip(connections, over):
+    while not over.wait(0.5):
+        for connection in connections:
+            with contextlib.suppress(OSError):
+                connection.sendall(b' ')
+
+
+def beside_silent_connections():
+    over = threading.Event()
+    drive = sim('--live', '0', '--speed', '0.01')
+    try:
+        port = int(drive.stderr.readline().split(':')[2].split('/')[0])
+        held = [silent(port) for _ in range(100)]
+        status, _ = ask(port, '/')
+        expect(status == 200, f'the page is served beside {len(held)} connections that say nothing')
+        threading.Thread(target=drip, args=([silent(port) for _ in range(40)], over)).start()
+        time.sleep(1.0)
+        drive.send_signal(signal.SIGINT)
+        drive.communicate(timeout=50)
+        expect(drive.returncode == 130, 'Ctrl-C does not wait for connections that say a byte now and then')
+    finally:
+        over.set()
+        drive.kill()
+        drive.wait()
 
 
 def main():
@@ -83,6 +119,7 @@ def main():
     finally:
         slow.kill()
         slow.wait()
+    beside_silent_connections()
 
 
 main()
