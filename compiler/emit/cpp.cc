@@ -38,7 +38,7 @@ using Out = std::back_insert_iterator<std::string>;
 void enumeration(std::string& out, const CppInput& in, std::string_view name, std::string_view about,
                  const std::vector<std::string>& members, const std::vector<std::string>& comments) {
   fmt::format_to(Out(out), "/// {}\nenum class {} : {} {{\n", about, name, index_type(in));
-  for (std::size_t i = 0; i < members.size(); ++i) {
+  for (std::size_t i = 0; i < members.size() && !is_full(out); ++i) {
     fmt::format_to(Out(out), "  {},{}{}\n", members[i], comments[i].empty() ? "" : "  // ", comments[i]);
   }
   out += "};\n\n";
@@ -148,11 +148,23 @@ std::string instances(const CppInput& in, std::string_view before) {
   return out;
 }
 
+/// About the bytes of the enumerations, which are the most of a large header: each cell once, each rule with its name and its place behind it.
+std::size_t least_of_header(const program::Program& program) {
+  constexpr std::size_t kAroundCell = 4, kAroundRule = 15;
+  std::size_t bytes = 0;
+  for (const program::Cell& cell : program.cells) bytes += cell.name.size() + kAroundCell;
+  for (const program::Rule& rule : program.rules) bytes += 2 * rule.name.size() + kAroundRule;
+  return bytes;
+}
+
 }  // namespace
 
 Cpp cpp(const program::Program& program, const tables::Tables& tables, const CppOptions& options) {
+  if (least_of_header(program) > kMaxCppBytes) return {};
   const CppInput in{program, tables, options, make_names(program, tables), make_type_names(program)};
-  const std::string declared = header_body(in), defined = source_body(in), version = version_name(declared, defined);
+  const std::string declared = header_body(in), defined = is_full(declared) ? "" : source_body(in);
+  if (is_full(declared) || is_full(defined)) return {};
+  const std::string version = version_name(declared, defined);
   const auto within = [&](std::string_view body) {
     return fmt::format("namespace {0} {{\ninline namespace {1} {{\n\n{2}}}  // namespace {1}\n}}  // namespace {0}\n\n", options.name_space, version, body);
   };

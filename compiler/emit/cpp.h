@@ -31,12 +31,15 @@ struct CppInput {
 /// The row of a membership function, in braces.
 [[nodiscard]] std::string membership_row(const mts::Membership& m);
 
+/// Whether there is more than the C++ may have, so that the rest of it need not be made.
+[[nodiscard]] inline bool is_full(const std::string& out) { return out.size() > kMaxCppBytes; }
+
 /// An array of `row(i)`, one a line; nothing at all if it is empty (pointers to it are then emitted as nullptr).
 template <class F>
 void emit_array(std::string& out, std::string_view type, std::string_view name, std::size_t count, F&& row) {
   if (count == 0) return;
   fmt::format_to(std::back_inserter(out), "constexpr {} {}[] = {{\n", type, name);
-  for (std::size_t i = 0; i < count; ++i) out += "    " + row(i) + "\n";
+  for (std::size_t i = 0; i < count && !is_full(out); ++i) out += "    " + row(i) + "\n";
   out += "};\n\n";
 }
 /// An array of numbers, several on a line: offsets and the like, whose rows have no names.
@@ -44,7 +47,7 @@ template <class T>
 void emit_numbers(std::string& out, std::string_view type, std::string_view name, const std::vector<T>& values) {
   if (values.empty()) return;
   fmt::format_to(std::back_inserter(out), "constexpr {} {}[] = {{\n", type, name);
-  for (std::size_t i = 0; i < values.size(); i += 16) {
+  for (std::size_t i = 0; i < values.size() && !is_full(out); i += 16) {
     out += "   ";
     for (std::size_t k = i; k < values.size() && k < i + 16; ++k) fmt::format_to(std::back_inserter(out), " {},", values[k]);
     out += '\n';

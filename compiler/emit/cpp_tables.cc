@@ -51,7 +51,7 @@ class TablesPrinter {
     line("using Index = Knowledge::Index;\n");
     line("// Atoms: see note [atoms] in runtime/table.h.");
     line("enum Atom : Index {{");
-    for (std::size_t a = 0; a < in_.names.atoms.size(); ++a) {
+    for (std::size_t a = 0; a < in_.names.atoms.size() && !is_full(out_); ++a) {
       const std::string text = tables::atom_name(t_, in_.program, static_cast<std::uint32_t>(a));
       line("  {},{}", in_.names.atoms[a], text == in_.names.atoms[a] ? "" : "  // " + text);
     }
@@ -149,7 +149,7 @@ class TablesPrinter {
   void by_rule(std::string_view type, std::string_view name, I mts::Rule<I>::*begin, F&& item) {
     if (t_.rules.back().*begin == 0) return;
     line("constexpr {} {}[] = {{", type, name);
-    for (std::size_t r = 0; r + 1 < t_.rules.size(); ++r) {
+    for (std::size_t r = 0; r + 1 < t_.rules.size() && !is_full(out_); ++r) {
       if (t_.rules[r].*begin == t_.rules[r + 1].*begin) continue;
       out_ += "   ";
       for (I i = t_.rules[r].*begin; i < t_.rules[r + 1].*begin; ++i) out_ += ' ' + item(i) + ',';
@@ -215,7 +215,9 @@ void texts(std::string& out, std::string_view type, std::string_view variable, c
     return;
   }
   out += "  static constexpr const char* kNames[] = {\n";
-  for (const auto& item : items) fmt::format_to(Out(out), "      \"{}\",\n", item.name);
+  for (const auto& item : items) {
+    if (!is_full(out)) fmt::format_to(Out(out), "      \"{}\",\n", item.name);
+  }
   fmt::format_to(Out(out), "  }};\n  const auto i = static_cast<std::uint32_t>({});\n  return i < {} ? kNames[i] : \"?\";\n}}\n\n", variable,
                  items.size());
 }

@@ -1,6 +1,7 @@
 // Tables -> C++: printing only; all decisions are made in compiler/tables.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "compiler/model/model.h"
@@ -14,6 +15,9 @@ struct CppOptions {
   std::string header_name;   ///< as the source includes it: "route1.kb.h"
   bool compact = false;      ///< emit a mts::CompactMind; tables::against_compact must be empty
 };
+
+/// The most bytes of a header or a source. Compilers take many times the memory of their source, and kbc itself some five times.
+inline constexpr std::size_t kMaxCppBytes = std::size_t{128} << 20;
 
 /// Two files. The header declares the typed interface (facts, enumerations, Mind, controllers), the source holds the
 /// tables and the engine made for them. Same program, same bytes.
@@ -38,6 +42,7 @@ struct FleetFiles {
 /// `options.header_name`. Empty if no leg leads along a road, or a map does not say where its roads lie. Same program, same bytes.
 [[nodiscard]] std::string cpp_map(const model::Model& model, const program::Program& program, const tables::Tables& tables, const CppOptions& options);
 
+/// Both are empty if one would be larger than kMaxCppBytes; that takes no longer than to write that much.
 [[nodiscard]] Cpp cpp(const program::Program& program, const tables::Tables& tables, const CppOptions& options);
 
 }  // namespace kb::emit

@@ -27,6 +27,7 @@ inline constexpr std::size_t kMaxInstances = 10'000'000;            ///< combina
 inline constexpr std::size_t kMaxRules = std::size_t{1} << 22;      ///< instances in all
 inline constexpr std::size_t kMaxEffects = std::size_t{1} << 25;    ///< effects of all instances
 inline constexpr std::size_t kMaxPlannedRows = std::size_t{1} << 18;  ///< legs and detours planned for one route
+inline constexpr std::size_t kMaxPlannedInAll = std::size_t{3} << 19;  ///< the same for all routes; some three rules come of each, and so kMaxRules
 
 /// An index of a set's members, and which of them were added.
 struct SetIndex {
@@ -153,6 +154,7 @@ struct Draft {
   bool library_missing = false;                     // reported once; what follows from it is not reported
   bool said_no_levels = false;
   bool said_no_exits = false, said_no_methods = false;
+  std::size_t planned_rows = 0;                     // legs and detours that were planned, on all routes
   bool rows_written = false;                        // all fields have what was written, but for conditions
   bool exhausted = false;                           // a limit was reached; nothing more is made
 

@@ -65,9 +65,12 @@ class Planner {
   /// False if there would be too many rows; the first time with a message.
   bool count(std::size_t more) {
     rows_ += more;
-    if (rows_ <= kMaxPlannedRows) return true;
+    draft_.planned_rows += more;
+    const bool alone = rows_ > kMaxPlannedRows;
+    if (!alone && draft_.planned_rows <= kMaxPlannedInAll) return true;
     if (!std::exchange(draft_.exhausted, true)) {
-      draft_.diagnostics.report(Kind::kTooManyDetours, at_, {draft_.routes[route_].name, fmt::format("{}", kMaxPlannedRows)});
+      draft_.diagnostics.report(Kind::kTooManyDetours, at_,
+                                {draft_.routes[route_].name, fmt::format("{}", alone ? kMaxPlannedRows : kMaxPlannedInAll), alone ? "" : ", with those of other routes"});
     }
     return false;
   }

@@ -168,6 +168,10 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
   const auto file_name = [&names](std::size_t i) { return std::filesystem::path(names[i]).filename().string(); };
   emit::Cpp cpp = emit::cpp(compiled.program, compiled.tables,
                             {.name_space = name_space, .header_name = file_name(0), .compact = options.compact});
+  if (cpp.source.empty()) {
+    session.report(Kind::kCppTooLarge, {options.file, fmt::format("{}", emit::kMaxCppBytes >> 20)});
+    return {};
+  }
   Files files = {{names[0], std::move(cpp.header)}, {names[1], std::move(cpp.source)}};
   if (options.fleet) {
     emit::Cpp fleet = emit::cpp_fleet(compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(2)},
@@ -220,7 +224,7 @@ int compile(const CompileOptions& options, Session& session) {
   if (!options.depfile.empty() && !can_list_files(names, session)) return kErrors;
   if (!make_folder_of(names[0], session)) return kErrors;
   Files files = emit_files(options, *compiled, names, name_space, session);
-  if (files.back().bytes.empty()) return kErrors;
+  if (files.empty() || files.back().bytes.empty()) return kErrors;
   if (options.form == "cpp") diagnose_hidden(options, files.front(), session);
   if (!options.depfile.empty()) files.push_back({options.depfile, print_depfile(files, session.files_read())});
   const bool large = compiled->program.rules.size() >= tables::kWorthAThread;
