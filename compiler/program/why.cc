@@ -249,6 +249,13 @@ std::string strategy_text(const Program& program, const Record& record, const St
   return what_fails(story.rule.reasons);
 }
 
+/// Where the certainty of a fact comes from.
+std::string_view origin_of(const Program& program, const Record& record, CellId fact) {
+  const bool defined = std::ranges::any_of(program.perception.perceived, [fact](const Perceived& one) { return one.fact == fact; });
+  if (!defined || (!record.given.empty() && record.given[index(fact)])) return "given from outside";
+  return record.given.empty() ? "perceived" : "it has no column, and from a recording of facts nothing is perceived";
+}
+
 }  // namespace
 
 CellId attending(const Program& program, const Record& record, CellId fact) {
@@ -286,9 +293,7 @@ CellStory explain_cell(const Program& program, const Record& record, CellId cell
   const LastWrite& last = record.last_write[index(cell)];
   if (fact) {
     const bool seen = record.seen[index(cell)];
-    const auto& perceived = program.perception.perceived;
-    const bool made = std::any_of(perceived.begin(), perceived.end(), [cell](const Perceived& one) { return one.fact == cell; });
-    story.text += std::string(made ? "perceived" : "given from outside") + "; it is " + (seen ? "seen" : "not seen");
+    story.text += std::string(origin_of(program, record, cell)) + "; it is " + (seen ? "seen" : "not seen");
   } else if (program[cell].kind == CellKind::kStrategy && last.tick != record.tick.number) {
     story.text += "no rule of the control level called for it";
   } else if (last.tick == 0) {

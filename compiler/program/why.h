@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/program/interpret.h"
@@ -39,6 +40,7 @@ struct Record {
   Tick tick;  ///< `number` 0 until the tick in question has ended
   std::vector<LevelRecord> levels;
   std::vector<bool> seen, event, lost;      ///< by fact
+  std::vector<bool> given;                  ///< by fact: the recording gives it; empty if the recording is one of readings, from which facts are perceived
   std::vector<std::uint64_t> fired_before;  ///< by rule: the last tick before this one on which it fired; 0: never
   std::vector<LastWrite> last_write;        ///< by cell
   std::vector<float> cf_after;              ///< by cell, when the tick was over
@@ -62,6 +64,8 @@ class Recorder final : public Interpreter::Observer {
   /// Must be called after every tick up to the wanted one; later ticks are ignored.
   void tick_ended(const Tick& tick, const Interpreter& interpreter);
   [[nodiscard]] const Record& record() const { return record_; }
+  /// The facts that the recording gives: see Record::given.
+  void facts_are_given(std::vector<bool> given) { record_.given = std::move(given); }
   /// From now on follows this cell through every tick.
   void watch(CellId cell) {
     watched_ = cell;

@@ -80,9 +80,10 @@ class Replay {
   Replay& operator=(const Replay&) = delete;
 
   // To the tick in question, or with a search to the end. False if the facts are wrong (reported), or if there is no such tick.
-  [[nodiscard]] bool run(trace::FactsReader& reader) {
+  [[nodiscard]] bool run(trace::FactsReader& reader, bool readings) {
     program::Interpreter interpreter(program_);
     interpreter.observe(&recorder_);
+    if (!readings) recorder_.facts_are_given(reader.given());
     while (search_ || reader.rows() < tick_) {
       const trace::FactsRow* row = reader.next();
       if (row == nullptr) break;
@@ -127,7 +128,7 @@ int why(const WhyOptions& options, Session& session) {
   const RecordedInput input = open_recorded(options.recorded, options.file, *compiled, diagnostics);
   if (!input.reader) return kErrors;
   Replay replay(program, *question, options.tick);
-  if (!replay.run(*input.reader)) {
+  if (!replay.run(*input.reader, options.recorded.has_readings())) {
     if (!input.reader->failed()) {
       diagnostics.report(Kind::kWhyNoTick, {}, {fmt::format("{}", std::max<std::uint64_t>(options.tick, 1)), options.recorded.path(),
                                                 diagnostics::counted(input.reader->rows(), "tick")});

@@ -72,6 +72,9 @@ class FactsReader {
   /// The next row; null at the end, or if something is wrong (`failed`).
   [[nodiscard]] const FactsRow* next();
 
+  /// By fact: it has a column.
+  [[nodiscard]] std::vector<bool> given() const;
+
   [[nodiscard]] bool failed() const { return failed_; }
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
   /// After `open`.
@@ -101,6 +104,7 @@ class FactsReader {
   [[nodiscard]] std::optional<std::string> nearest_name(std::string_view name, const Header& header) const;
   void reject_name(const Field& field, std::string_view shown, const Header& header, const LineReader::Line& line, Mark mark);
   [[nodiscard]] const program::Sensor* find_sensor(std::string_view name) const;
+  void warn_of_unperceived(const LineReader::Line& line);
   void reject_sensor(const program::Sensor& sensor, std::string_view shown, const LineReader::Line& line, Mark mark);
   bool take_time(const Field& field, const LineReader::Line& line);
   bool skips(const LineReader::Line& line);

@@ -19,6 +19,16 @@ using diagnostics::Kind;
 using program::CellId;
 using program::CellKind;
 
+// A column that what defines a fact depends on. `given` has those of the facts.
+CellId defining_column(const program::Perception& perception, program::PerceptId id, const std::vector<CellId>& given) {
+  const program::Percept& percept = perception[id];
+  if (percept.op == PerceptOp::kFact) return given[program::index(percept.cell)];
+  for (const program::PerceptId part : percept.children) {
+    if (const CellId found = defining_column(perception, part, given); found != CellId::kNone) return found;
+  }
+  return CellId::kNone;
+}
+
 }  // namespace
 
 struct FactsReader::Header {
@@ -44,7 +54,40 @@ bool FactsReader::read_header(const LineReader::Line& line) {
     }
     good = add_column(field, ++number, line, header) && good;
   }
+  if (good && named_ == Columns::kFacts) warn_of_unperceived(line);
   return good;
+}
+
+// Facts that are defined by others are not computed from a recording of facts, which gives them itself. `kbc sim --facts` leaves out facts that are
+// 0 throughout, as a lazy one may well be.
+void FactsReader::warn_of_unperceived(const LineReader::Line& line) {
+  const program::Perception& perception = program_.perception;
+  std::vector<CellId> given(program_.facts, CellId::kNone);   // by fact: a column that it depends on; its own if it has one
+  for (const std::uint32_t column : columns_) {
+    if (column != kTimeColumn) given[column] = CellId{column};
+  }
+  CellId first = CellId::kNone;
+  std::size_t count = 0;
+  for (const program::Perceived& perceived : perception.perceived) {   // those that define a fact come before it
+    CellId& fact = given[program::index(perceived.fact)];
+    if (fact != CellId::kNone) continue;
+    fact = defining_column(perception, perceived.percept, given);
+    if (fact == CellId::kNone || perceived.lazy) continue;
+    if (count++ == 0) first = perceived.fact;
+  }
+  if (count == 0) return;
+  const std::string more = count > 1 ? fmt::format(" (and {} more)", diagnostics::counted(count - 1, "fact")) : std::string();
+  const auto end = static_cast<std::uint32_t>(line.text.size());
+  report(Kind::kFactsUnperceived, line, {0, std::max(end, 1u)}, {program_[first].name, program_[given[program::index(first)]].name, more})
+      .note(Kind::kFactsByReadings, {});
+}
+
+std::vector<bool> FactsReader::given() const {
+  std::vector<bool> given(program_.facts, false);
+  for (const std::uint32_t column : columns_) {
+    if (column < program_.facts) given[column] = true;
+  }
+  return given;
 }
 
 bool FactsReader::add_column(const Field& field, std::size_t number, const LineReader::Line& line, Header& header) {
