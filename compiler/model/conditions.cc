@@ -258,6 +258,13 @@ Outcome Conditions::evaluate_event(const Pattern& pattern, Environment values, C
   return Outcome::kMade;
 }
 
+/// `In.N and In.S`, or the first two of more.
+std::string Conditions::all_of(const std::vector<CellId>& cells, bool sat) const {
+  std::string all;
+  for (std::size_t i = 0; i < std::min<std::size_t>(cells.size(), 2); ++i) all += fmt::format("{}{}{}", i > 0 ? " and " : "", sat ? "sat " : "", draft_.model[cells[i]].name);
+  return all + (cells.size() > 2 ? " and ..." : "");
+}
+
 Outcome Conditions::report_many(const Pattern& pattern, const Operand& operand) {
   const std::string_view text = references_.text(pattern.ref);
   const Entity* named = draft_.names.find(text);
@@ -267,7 +274,8 @@ Outcome Conditions::report_many(const Pattern& pattern, const Operand& operand) 
   const std::string name = (pattern.sat && !satellites ? "sat " : "") + std::string(text);
   const bool of_exits = of_road_ && named != nullptr && named->kind == Entity::Kind::kGroup && draft_.model.groups[named->id].dimensions == std::vector{draft_.exits};
   const std::string one = of_exits ? fmt::format("`{}[exit]`", name) : fmt::format("`any {0}` or `no {0}`, or {1}", name, operand.kind == Operand::Kind::kRelation ? "name a row" : "index it");
-  draft_.diagnostics.report(Kind::kWholeGroup, references_.span(pattern.ref), {text, references_.describe(operand), one});
+  auto message = draft_.diagnostics.report(Kind::kWholeGroup, references_.span(pattern.ref), {text, references_.describe(operand), one});
+  if (!of_exits && cells && cells->size() > 1) message.note(Kind::kAllOfThem, {}, {all_of(*cells, pattern.sat && !satellites)});
   return Outcome::kBroken;
 }
 

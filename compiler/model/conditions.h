@@ -51,6 +51,7 @@ class Conditions {
   Outcome evaluate_event(const Pattern& pattern, Environment values, CondId& made);
   Outcome evaluate_is(const Pattern& pattern, Environment values, CondId& made);
   Outcome evaluate_any(const Pattern& pattern, Environment values, CondId& made);
+  [[nodiscard]] std::string all_of(const std::vector<CellId>& cells, bool sat) const;
   Outcome report_many(const Pattern& pattern, const Operand& operand);
   Outcome report_no_cell(const Pattern& pattern, const Operand& operand);
   Outcome satellites_of(const Pattern& pattern, CellId cell, std::vector<CellId>& out);

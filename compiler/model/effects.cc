@@ -46,7 +46,7 @@ bool Effects::check_row(const Pattern& pattern) {
   const source::Span at = references_.span(pattern.ref);
   const std::string_view text = references_.text(pattern.ref);
   switch (state) {
-    case References::RowState::kFact: draft_.diagnostics.report(Kind::kWriteToFact, at, {text}); break;
+    case References::RowState::kFact: draft_.diagnostics.report(Kind::kWriteToFact, at, {text, ""}); break;
     case References::RowState::kSatellite: draft_.diagnostics.report(Kind::kSatOfSatellite, at, {text}); break;
     default: draft_.diagnostics.report(Kind::kNoState, at, {text, references_.describe_row(pattern.ref)});
   }
@@ -96,7 +96,9 @@ bool Effects::may_write(const Pattern& pattern, CellId cell, std::string_view te
         .note(Kind::kNameDeclaredHere, known.declared, {known.name});
   } else if (!pattern.sat && !satellite) {
     const Kind kind = known.kind == CellKind::kFact ? Kind::kWriteToFact : Kind::kWriteToStrategy;
-    draft_.diagnostics.report(kind, references_.span(pattern.ref), {text})
+    const Entity* named = draft_.names.find(text);
+    const bool plain = named != nullptr && named->kind == Entity::Kind::kFact && !known.command && !draft_.standard(known.declared);
+    draft_.diagnostics.report(kind, references_.span(pattern.ref), {text, plain ? fmt::format("if rules are to write it, declare `satellite {}` instead; ", text) : std::string()})
         .note(Kind::kNameDeclaredHere, known.declared, {known.name});
   }
   return pattern.sat != satellite;

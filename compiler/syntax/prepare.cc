@@ -68,6 +68,7 @@ class Preparation {
   [[nodiscard]] TokenKind kind_in_fuzzy() const;
 
   // ---- slips of the pen; each function returns whether it has used up the token
+  void mend_word();
   [[nodiscard]] bool mend_sign();
   [[nodiscard]] bool mend_rule();
 
@@ -122,6 +123,7 @@ void Preparation::step() {
     }
   }
   if (skipping_ && token_.kind != TokenKind::kEnd) return;
+  mend_word();
   if (nests_too_deeply(token_)) return;
   if (mend_sign() || mend_rule()) return;
   if (token_.kind == TokenKind::kIdentifier) return put(kind_of_name(), token_.span);
@@ -280,6 +282,20 @@ TokenKind Preparation::kind_of_name() const {
 }
 
 // ---- slips
+
+// `NOT Line AND Gate`. Where two names or a name and a parenthesis stand side by side, the one is no name.
+void Preparation::mend_word() {
+  const bool plain = open_.empty() || open_.back() == TokenKind::kLeftParen;
+  if (token_.kind != TokenKind::kIdentifier || !in_rule_condition() || !plain) return;
+  const std::string_view word = sources_.text(token_.span);
+  const bool behind = last() == TokenKind::kIdentifier || is_right(last());
+  const bool before = kind(1) == TokenKind::kIdentifier || kind(1) == TokenKind::kLeftParen || is_keyword(kind(1));
+  const TokenKind meant = word == "NOT" ? TokenKind::kNot : word == "AND" ? TokenKind::kAnd : word == "OR" ? TokenKind::kOr : TokenKind::kIdentifier;
+  const bool fits = meant == TokenKind::kNot ? !behind && kind(1) != TokenKind::kAnd && kind(1) != TokenKind::kOr : behind;
+  if (meant == TokenKind::kIdentifier || !before || !fits || kind(1) == TokenKind::kThen) return;
+  mended(Kind::kOtherWord, token_.span, word, spelling(meant));
+  token_.kind = meant;
+}
 
 bool Preparation::mend_sign() {
   const source::Span span = token_.span;

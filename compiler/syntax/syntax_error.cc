@@ -31,7 +31,7 @@ std::string_view singular(TokenKind declaration) {
 
 void SyntaxError::report() {
   if (stream_.is_spoilt() || stream_.is_reported()) return;
-  const bool known = is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_late_of() || is_trailing_comma() ||
+  const bool known = is_comment() || is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_late_of() || is_trailing_comma() ||
                      is_other_bracket() || is_row_without_fields() || is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() ||
                      is_names_as_set() || is_map_line() || is_rule_head() || is_percept() || is_condition() || is_effect() || is_route() || is_road() || is_order() ||
                      is_quoted_name() || is_missing_comma() || is_type() || is_member_value() || is_unknown_attribute() || is_word_as_name();
@@ -39,6 +39,14 @@ void SyntaxError::report() {
 }
 
 // ---- statements and brackets
+
+// `-- ...`, `(* ... *)`: these signs have a meaning elsewhere, so the scanner lets them pass.
+bool SyntaxError::is_comment() {
+  if (kind_ == T::kTwoWay && statement_ != T::kMap) return say(Kind::kForeignComment, found_.span, {"--"});
+  const bool opens = kind_ == T::kLeftParen && stream_.ahead(1).kind == T::kStar && stream_.ahead(1).span.begin == found_.span.end;
+  const bool inside = kind_ == T::kStar && last_.kind == T::kLeftParen && last_.span.end == found_.span.begin && stream_.behind(2).kind != T::kIdentifier;
+  return (opens || inside) && say(Kind::kForeignComment, opens ? found_.span : last_.span, {"(*"});
+}
 
 // `import map.kb`, `import plant/map.kb`: a path without quotes that is not a sequence of names.
 bool SyntaxError::is_import() {

@@ -28,6 +28,7 @@ class SyntaxError {
   void report();
 
  private:
+  [[nodiscard]] bool is_comment();
   [[nodiscard]] bool is_import();
   [[nodiscard]] bool is_decimal_comma();
   [[nodiscard]] bool is_hyphen();
@@ -47,9 +48,12 @@ class SyntaxError {
   [[nodiscard]] bool is_percept();
   [[nodiscard]] bool is_condition();
   [[nodiscard]] bool is_comparison();
+  [[nodiscard]] bool is_variable(const Token& name) const;
+  [[nodiscard]] bool is_operator();
   [[nodiscard]] bool is_dotted_term();
   void note_member(diagnostics::Builder& message, const Token& group, const Token& member, bool negated) const;
   [[nodiscard]] bool is_effect();
+  [[nodiscard]] bool is_called();
   [[nodiscard]] bool is_effect_value();
   [[nodiscard]] bool is_effect_member(source::Span effect, std::string_view group);
   [[nodiscard]] bool is_verb(source::Span effect);

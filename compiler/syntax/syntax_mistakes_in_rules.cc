@@ -3,7 +3,10 @@
 #include <iterator>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "compiler/diagnostics/display.h"
+#include "compiler/source/encoding.h"
 #include "compiler/syntax/syntax_mistakes.h"
 
 namespace kb::syntax {
@@ -15,7 +18,8 @@ using T = TokenKind;
 constexpr std::size_t kFarthest = 64;   // tokens that are looked at on one side
 
 /// Words that mean a value and no name.
-bool is_truth(std::string_view word) {
+bool is_truth(std::string_view name) {
+  const std::string word = source::lower(std::string(name));
   constexpr std::string_view kTruths[] = {"on", "off", "true", "false", "yes", "no", "low", "zero", "high"};
   return std::ranges::find(kTruths, word) != std::end(kTruths);
 }
@@ -48,7 +52,7 @@ bool SyntaxError::is_condition() {
   }
   const bool inside = condition_may_begin(expected_) || wants(T::kThen) || wants(T::kAnd);
   if (!inside) return false;
-  if (is_comparison() || is_dotted_term()) return true;
+  if (is_comparison() || is_dotted_term() || is_operator()) return true;
   if (statement_ == T::kRule && kind_ == T::kTilde) return say(Kind::kLikenessInRule, found_.span, {text()});
   if (wants(T::kThen) && at_end()) return say(Kind::kMissingThen, place());
   const bool number = kind_ == T::kNumber || (kind_ == T::kMinus && stream_.ahead(1).kind == T::kNumber);
@@ -64,8 +68,30 @@ bool SyntaxError::is_comparison() {
   auto message = diagnostics_.report(Kind::kComparison, found_.span, {text()});
   const bool dotted = stream_.ahead(2).kind == T::kDot;
   const bool other = stream_.behind(2).kind == T::kDot || (dotted && text(stream_.ahead(1).span) != text(last_.span));
-  if (equality && !other) note_member(message, last_, stream_.ahead(dotted ? 3 : 1), kind_ == T::kNotEqual);
+  if (is_variable(last_) && is_variable(stream_.ahead(1))) message.note(Kind::kVariablesCompared, {}, {text(last_.span), text(stream_.ahead(1).span)});
+  else if (equality && !other) note_member(message, last_, stream_.ahead(dotted ? 3 : 1), kind_ == T::kNotEqual);
   return true;
+}
+
+// A variable of the rule: it was declared as `name in SET`.
+bool SyntaxError::is_variable(const Token& name) const {
+  if (name.kind != T::kIdentifier || statement_ != T::kRule) return false;
+  for (std::size_t i = 2; i < kFarthest && !stream_.behind(i).begins_statement; ++i) {
+    if (stream_.behind(i).kind == T::kIn && text(stream_.behind(i + 1).span) == text(name.span)) return true;
+  }
+  return false;
+}
+
+// `Left xor Right`
+bool SyntaxError::is_operator() {
+  constexpr std::string_view kForms[][2] = {{"xor", "({0} or {1}) and not ({0} and {1})"}, {"nand", "not ({0} and {1})"}, {"nor", "not ({0} or {1})"}};
+  if (kind_ != T::kIdentifier || !wants(T::kAnd)) return false;
+  const auto form = std::ranges::find_if(kForms, [this](const auto& one) { return source::lower(std::string(text())) == one[0]; });
+  if (form == std::end(kForms)) return false;
+  const T before = stream_.behind(2).kind, behind = stream_.ahead(2).kind;
+  const bool simple = last_.kind == T::kIdentifier && before != T::kDot && before != T::kSat && stream_.ahead(1).kind == T::kIdentifier && behind != T::kDot && behind != T::kLeftBracket;
+  const std::string left(simple ? text(last_.span) : "A"), right(simple ? text(stream_.ahead(1).span) : "B");
+  return say(Kind::kNoSuchOperator, found_.span, {text(), fmt::format(fmt::runtime((*form)[1]), left, right)});
 }
 
 // `Step is Step.one`
@@ -111,8 +137,18 @@ bool SyntaxError::is_effect() {
     const bool lasts = kind_ == T::kFor || text() == "until" || text() == "after" || text() == "in" || text() == "during";
     if (lasts) return say(Kind::kEffectDuration, found_.span, {text()});
   }
+  if (is_called()) return true;
   if (last_.kind == T::kReset && kind_ == T::kIdentifier && !found_.begins_line) return say(Kind::kResetOf, found_.span, {text()});
   return is_effect_value() || is_unsigned_effect();
+}
+
+// `then drive(fast)`, without names of arguments
+bool SyntaxError::is_called() {
+  if (!wants(T::kEqual) || last_.kind != T::kRightParen) return false;
+  const source::Span effect = effect_so_far();
+  const std::string_view whole = text(effect), name = whole.substr(0, whole.find_first_of(" ("));
+  const source::Span at{effect.file, effect.begin, static_cast<std::uint32_t>(effect.begin + name.size())};
+  return !name.empty() && say(Kind::kCalledController, at, {name});
 }
 
 // `then +Lamp = 1`, `then Lamp = on`, `then Way = left`
@@ -123,7 +159,7 @@ bool SyntaxError::is_effect_value() {
   if (!sign && !word) return false;
   const source::Span all = source::join(effect, sign && stream_.ahead(1).kind != T::kEnd ? stream_.ahead(1).span : found_.span);
   std::string_view satellite = text(effect).substr(sign ? 1 : 0);
-  satellite = satellite.substr(0, satellite.find_last_not_of(" =") + 1);
+  satellite = satellite.substr(0, satellite.find_last_not_of(" :=") + 1);
   if (word && kind_ == T::kIdentifier && !is_truth(text())) return is_effect_member(effect, satellite);
   return say(Kind::kEffectValue, all, {text(all), satellite});
 }
