@@ -42,8 +42,10 @@ void diagnose(const model::Model& model, const program::Program& program, const 
   diagnose_priority(subject);
   diagnose_conditions(subject);
   diagnose_effects(subject);
+  diagnose_already_so(subject);
   diagnose_silenced(subject);
   diagnose_taken_back(subject);
+  diagnose_gaps(subject);
   diagnose_conflicts(subject);
   diagnose_lazy(subject);
   diagnose_perception(subject);

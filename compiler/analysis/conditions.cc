@@ -226,13 +226,30 @@ class ConditionQuestions {
     return changes;
   }
 
+  /// Whether the rule is clearly meant for the start: it gives an exclusive group that has no member high its first one, or takes back a satellite that
+  /// was declared to begin high.
+  [[nodiscard]] bool begins(const Rule& rule) {
+    const auto firing = static_cast<float>(program_.settings.firing);
+    const Demands demands = narrow_satisfier_.demands(rule.condition, rule.level);
+    const auto asks = [&](program::CellId cell, bool high) {
+      const auto asked = std::ranges::find(demands.each, program::index(cell), &Restriction::variable);
+      const Regions wrong = high ? static_cast<Regions>(~regions_of(program::Term::kHigh)) : regions_of(program::Term::kHigh);
+      return asked != demands.each.end() && (asked->allowed & wrong) == 0;
+    };
+    return std::ranges::any_of(rule.writes, [&](const program::Write& write) {
+      const std::uint32_t group = subject_.group_of[program::index(write.cell)];
+      if (write.value < firing) return program_[write.cell].initial >= firing && asks(write.cell, true);
+      return group != program::kNoGroup && std::ranges::all_of(program_.exclusive[group], [&](program::CellId cell) { return asks(cell, false); });
+    });
+  }
+
   void diagnose_start() {
     const std::vector<bool> truth = truth_at_start();
     ByFamily<bool> found(subject_);
     for (const RuleId id : program::Interpreter(program_).tick({}, 0).fired) {   // a higher level may change what holds at start-up
       const Rule& rule = program_[id];
       if (rule.mode != program::Mode::kWhen || Subject::generated(rule)) continue;
-      if (truth[program::index(rule.condition)] && changes_start(rule)) found.add(id, true);
+      if (truth[program::index(rule.condition)] && changes_start(rule) && !begins(rule)) found.add(id, true);
     }
     found.for_each([&](RuleId id, bool, std::uint32_t count) {
       const std::uint32_t family = subject_.family[program::index(id)];

@@ -331,8 +331,23 @@ class ConflictQuestions {
     return std::any_of(cond.children.begin(), cond.children.end(), [&](program::CondId part) { return asks_what_it_writes(rule, part); });
   }
 
+  /// Whether the rule fires on the first tick and never again: it asks for a satellite that begins high, lowers it, and nothing raises it.
+  [[nodiscard]] bool fires_once(const Rule& rule) const {
+    const program::Cond& asked = program_[rule.condition];
+    const bool high = asked.op == program::Cond::Op::kIs && asked.term == program::Term::kHigh && static_cast<double>(program_[asked.cell].initial) >= program_.settings.firing;
+    if (!high || subject_.raiser[program::index(asked.cell)] != RuleId::kNone || std::ranges::any_of(program_.rules, &Rule::reset)) return false;
+    return program::net_value(program_, subject_.group_of, rule, asked.cell).value_or(1.0f) < 0.0f;
+  }
+
+  /// The first tick makes no events.
+  [[nodiscard]] bool waits_for_event(const Rule& rule) const {
+    const std::vector<program::CondId> asked = program::conjuncts(program_, rule.condition);
+    return std::ranges::any_of(asked, [this](program::CondId part) { return program_[part].op == program::Cond::Op::kEvent || program_[part].op == program::Cond::Op::kLost; });
+  }
+
   /// A question that cannot be settled within the budget counts as yes.
   [[nodiscard]] bool can_fire_together(const Rule& a, const Rule& b) {
+    if ((fires_once(a) && waits_for_event(b)) || (fires_once(b) && waits_for_event(a))) return false;
     const Goal goals[] = {{a.condition, true}, {b.condition, true}};
     return satisfier_.together(goals, a.level) != Answer::kNo;
   }

@@ -7,6 +7,7 @@
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
+#include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
@@ -244,14 +245,16 @@ void diagnose_duplicates(Subject& subject) {
   });
 }
 
+/// A rule with a timer is left out: there `when` is armed again only when the timer has been found not to hold.
 void diagnose_self_defeating(Subject& subject) {
   const Program& program = subject.program;
+  const std::vector<bool> timed = program::marked(program, [](const program::Cond& cond) { return cond.op == program::Cond::Op::kFor; });
   const Domains widest = widest_domains(program);
   Satisfier satisfier(program, widest, subject.confusions.get());
   ByFamily<CellId> found(subject);
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];
-    if (rule.mode != program::Mode::kWhile || Subject::generated(rule)) continue;
+    if (rule.mode != program::Mode::kWhile || Subject::generated(rule) || timed[program::index(rule.condition)]) continue;
     const Demands demands = satisfier.demands(rule.condition, rule.level);
     if (!demands.possible) continue;
     if (const auto cell = undone(subject, demands, rule)) found.add(RuleId{i}, *cell);

@@ -18,8 +18,6 @@ constexpr std::uint32_t kNoChoice = 0xFFFFFFFFu;
 constexpr std::uint32_t kNobody = 0xFFFFFFFFu;
 constexpr std::size_t kNothingOpen = static_cast<std::size_t>(-1);
 constexpr std::uint64_t kStepsPerQuestion = 50'000;
-constexpr std::uint8_t kTimerTrue = 1;
-constexpr std::uint8_t kTimerFalse = 2;
 constexpr std::uint8_t kHigh = kRegionHigh | kRegionHighZero;
 
 /// Whether a fact is certainly high while it is seen. An exclusive group promises only that two facts are not high at once; facts that are
@@ -82,6 +80,7 @@ Satisfier::Satisfier(const program::Program& program, const Domains& domains, Co
 /// that contain them, so what is found for a part is known when its whole is examined.
 void Satisfier::find_timed_events() {
   const auto sightings = static_cast<std::uint32_t>(program_.cells.size());
+  std::map<std::size_t, std::vector<CondId>> timers;   // by what they time; a long one holds only where a shorter one does
   for (std::uint32_t i = 0; i < program_.conds.size(); ++i) {
     const Cond& cond = program_.conds[i];
     if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
@@ -92,6 +91,12 @@ void Satisfier::find_timed_events() {
     });
     begin(0);   // undoes the assumptions
     if (!moment) {
+      std::vector<CondId>& others = timers[program::index(cond.children.front())];
+      for (const CondId other : others) {
+        const bool is_longer = program_[other].duration_us > cond.duration_us;
+        held_[is_longer ? other : CondId{i}].push_back({timer_of(is_longer ? CondId{i} : other), kTimerTrue});
+      }
+      others.push_back(CondId{i});
       for (const Restriction& demand : each) {
         const auto held = is_sighting(demand) ? held_sighting(demand.allowed) : std::nullopt;
         if (held) held_[CondId{i}].push_back({demand.variable, *held});

@@ -69,6 +69,7 @@ class Satisfier {
   [[nodiscard]] bool is_timed_event(program::CondId condition) const;
   /// Steps taken so far by all questions together; once this exceeds `kTotalSteps` every answer is kUnknown.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  static constexpr std::uint8_t kTimerTrue = 1, kTimerFalse = 2;   ///< the values of the variable of a timer
   static constexpr std::uint64_t kTotalSteps = 40'000'000;
 
  private:

@@ -1,4 +1,4 @@
-// Reports rules that lose what they wait for to a `reset` of their own level or one above.
+// Reports rules that lose what they wait for to a `reset` of their own level or one above, and resets that last.
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
@@ -31,6 +31,7 @@ class SilencedQuestions {
       : subject_(subject), program_(subject.program), satisfier_(subject.program, subject.domains, subject.confusions.get()) {}
 
   void run() {
+    find_lasting();
     find_resets();
     if (resets_.empty()) return;
     ByFamily<Loss> found(subject_);
@@ -49,6 +50,38 @@ class SilencedQuestions {
   }
 
  private:
+  /// Reports `while` rules that reset on a level where another rule waits for the same fact, or writes what is kept: for as long as such a rule fires
+  /// the other one does not. What the `reset` also takes a satellite from is left to the message about that.
+  void find_lasting() {
+    ByFamily<RuleId> found(subject_);
+    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
+      const Rule& rule = program_.rules[i];
+      if (!rule.reset || rule.mode != program::Mode::kWhile || Subject::generated(rule)) continue;
+      const Demands demands = satisfier_.demands(rule.condition, rule.level);
+      if (undone(subject_, demands, rule)) continue;   // it resets once
+      if (const RuleId other = silenced_by(rule, awaited(demands)); other != RuleId::kNone) found.add(RuleId{i}, other);
+    }
+    found.for_each([&](RuleId id, RuleId other, std::uint32_t count) {
+      const Rule& rule = program_[id];
+      subject_.diagnostics.report(Kind::kSilencesLevel, rule.span, {rule.name, program_.levels[rule.level], program_[other].name, more(count)});
+    });
+  }
+
+  [[nodiscard]] RuleId silenced_by(const Rule& reset, const std::vector<std::size_t>& facts) {
+    const auto [begin, end] = program::rules_of(program_, reset.level);
+    for (std::uint32_t i = begin; i < end && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {
+      const Rule& rule = program_.rules[i];
+      if (rule.reset || Subject::generated(rule)) continue;
+      const Demands demands = satisfier_.demands(rule.condition, rule.level);
+      const std::vector<std::size_t> others = awaited(demands);
+      const bool shares = std::ranges::any_of(others, [&](std::size_t fact) { return std::ranges::find(facts, fact) != facts.end(); });
+      const bool keeps = std::ranges::any_of(rule.writes, [this](const program::Write& write) { return program_[write.cell].keep; });
+      const Goal goals[] = {{rule.condition, true}, {reset.condition, true}};
+      if ((shares || keeps) && demands.possible && !undone(subject_, demands, reset) && satisfier_.together(goals, reset.level) == Answer::kYes) return RuleId{i};
+    }
+    return RuleId::kNone;
+  }
+
   void find_resets() {
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
       const Rule& rule = program_.rules[i];

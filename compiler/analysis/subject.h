@@ -117,8 +117,10 @@ void diagnose_lasting(const Subject& subject);   ///< lasting.cc: strategies wan
 void diagnose_priority(Subject& subject);    ///< priority.cc: pairs of strategies that nothing orders
 void diagnose_conditions(Subject& subject);  ///< conditions.cc: can never, or must always, fire
 void diagnose_effects(Subject& subject);     ///< effects.cc: overridden, void, repeated, self-defeating
+void diagnose_already_so(const Subject& subject);   ///< already_so.cc: rules that write what is so already
 void diagnose_silenced(const Subject& subject);   ///< silenced.cc: rules that lose what they wait for to a `reset`
 void diagnose_taken_back(const Subject& subject);   ///< taken_back.cc: rules that wait for a satellite which is lowered before they see it
+void diagnose_gaps(const Subject& subject);   ///< gaps.cc: timers that miss that what they time has ended and begun again
 void diagnose_conflicts(Subject& subject);   ///< conflicts.cc: can fire together and disagree
 void diagnose_perception(Subject& subject);  ///< perception.cc: confusable facts, facts that are never sure
 void diagnose_lazy(Subject& subject);        ///< lazy.cc: edges of lazy facts, and conditions that hold for a fact nobody has looked at

@@ -1,0 +1,85 @@
+// Reports rules that change nothing, because all that they write is so already.
+#include <algorithm>
+#include <vector>
+
+#include "compiler/analysis/satisfier.h"
+#include "compiler/analysis/subject.h"
+
+namespace kb::analysis {
+namespace {
+
+using diagnostics::Kind;
+using program::CellId;
+using program::Program;
+using program::Rule;
+using program::RuleId;
+
+/// By cell: the values that rules write to it or that it has from the start.
+std::vector<std::vector<float>> values_of_cells(const Program& program) {
+  std::vector<std::vector<float>> values(program.cells.size());
+  const auto add = [&](CellId cell, float value) {
+    std::vector<float>& known = values[program::index(cell)];
+    if (std::ranges::find(known, value) == known.end()) known.push_back(value);
+  };
+  for (std::uint32_t i = 0; i < program.cells.size(); ++i) add(CellId{i}, program.cells[i].initial);
+  for (const auto& group : program.exclusive) {
+    for (const CellId cell : group) add(cell, -1.0f);
+  }
+  for (const Rule& rule : program.rules) {
+    for (const program::Write& write : rule.writes) add(write.cell, write.value);
+  }
+  return values;
+}
+
+class AlreadySo {
+ public:
+  explicit AlreadySo(const Subject& subject)
+      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), exclusive_(exclusive_at_all_times(program_)),
+        values_(values_of_cells(program_)), satisfier_(program_, subject.domains, subject.confusions.get()) {}
+
+  void run() {
+    ByFamily<bool> found(subject_);
+    for (std::uint32_t i = 0; i < program_.rules.size() && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {
+      if (changes_nothing(program_.rules[i])) found.add(RuleId{i}, true);
+    }
+    found.for_each([&](RuleId id, bool, std::uint32_t count) {
+      if (count < subject_.instances[subject_.family[program::index(id)]]) return;
+      subject_.diagnostics.report(Kind::kAlreadySo, program_[id].span, {program_[id].name, more(count)});
+    });
+  }
+
+ private:
+  [[nodiscard]] bool changes_nothing(const Rule& rule) {
+    if (rule.reset || rule.writes.empty() || Subject::generated(rule)) return false;
+    const Demands demands = satisfier_.demands(rule.condition, rule.level);
+    return demands.possible && std::ranges::all_of(rule.writes, [&](const program::Write& write) { return is_so(demands, write); }) &&
+           std::ranges::all_of(rule.clears, [&](std::uint32_t group) { return is_clear(rule, group); });
+  }
+
+  /// The cell is asked for, and where it is as asked it has no other value than the one that is written.
+  [[nodiscard]] bool is_so(const Demands& demands, const program::Write& write) const {
+    const auto asked = std::ranges::find(demands.each, program::index(write.cell), &Restriction::variable);
+    if (asked == demands.each.end()) return false;
+    return std::ranges::all_of(values_[program::index(write.cell)], [&](float value) { return value == write.value || (region_of(value, firing_) & asked->allowed) == 0; });
+  }
+
+  /// The member that the rule writes, of which `is_so` holds, keeps the others down.
+  [[nodiscard]] bool is_clear(const Rule& rule, std::uint32_t group) const {
+    const auto whole = [this](CellId cell) { return std::ranges::all_of(values_[program::index(cell)], [](float value) { return value == 1.0f || value == -1.0f; }); };
+    return exclusive_[group] && std::ranges::all_of(program_.exclusive[group], whole) &&
+           std::ranges::any_of(rule.writes, [&](const program::Write& write) { return write.value >= firing_ && subject_.group_of[program::index(write.cell)] == group; });
+  }
+
+  const Subject& subject_;
+  const Program& program_;
+  float firing_;
+  std::vector<bool> exclusive_;              // by group: at all times
+  std::vector<std::vector<float>> values_;   // by cell
+  Satisfier satisfier_;
+};
+
+}  // namespace
+
+void diagnose_already_so(const Subject& subject) { AlreadySo(subject).run(); }
+
+}  // namespace kb::analysis
