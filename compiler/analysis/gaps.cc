@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,7 @@ using program::Program;
 using program::Rule;
 using program::RuleId;
 
-constexpr std::uint64_t kMostGapSteps = 4'000'000;
+constexpr std::uint64_t kMostGapSteps = 1'000'000;
 constexpr Regions kHighRegions = kRegionHigh | kRegionHighZero;
 
 /// The rules that may write a cell.
@@ -63,7 +64,7 @@ struct Common {
     if (fresh) known->second = satisfier.demands(program[rule].condition, program[rule].level);
     return known->second;
   }
-  [[nodiscard]] bool spent() const { return steps > kMostGapSteps || satisfier.steps() > Satisfier::kTotalSteps; }
+  [[nodiscard]] bool spent() const { return steps + satisfier.steps() > kMostGapSteps; }
 
   const Subject& subject;
   const Program& program;
@@ -210,18 +211,24 @@ class State {
 
 class GapQuestions {
  public:
-  explicit GapQuestions(const Subject& subject) : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), common_(subject) {}
+  explicit GapQuestions(const Subject& subject)
+      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), common_(subject), told_(subject.instances.size()) {}
 
   void run() {
+    if (subject_.diagnostics.full(Kind::kUnseenGap)) return;
     ByFamily<Gap> found(subject_);
     for (const bool library : {false, true}) {   // the user's first, should there be too many
       for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
         const Rule& rule = program_.rules[i];
         if (rule.standard != library || Subject::generated(rule) || rule.level == 0) continue;
-        if (const auto gap = gap_of(rule)) found.add(RuleId{i}, *gap);
+        std::vector<bool>::reference told = told_[subject_.family[i]];
+        if (told) continue;
+        const auto gap = gap_of(rule);
+        told = gap.has_value();
+        if (gap) found.add(RuleId{i}, *gap);
       }
     }
-    found.for_each([&](RuleId id, const Gap& gap, std::uint32_t count) { report(program_[id], gap, count); });
+    found.for_each([&](RuleId id, const Gap& gap, std::uint32_t) { report(program_[id], gap); });
   }
 
  private:
@@ -229,14 +236,17 @@ class GapQuestions {
     for (const CondId id : program::reachable(program_.conds, {rule.condition})) {
       const Cond& cond = program_[id];
       if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
-      const auto [known, fresh] = known_.try_emplace({id, rule.level});
-      if (fresh) known->second = search(id, rule.level);
+      const bool hidden = rule.standard && !subject_.diagnostics.options().standard_library;
+      const auto [known, fresh] = known_.try_emplace({id, rule.level, hidden});
+      if (fresh) known->second = search(id, rule.level, hidden);
       if (known->second) return known->second;
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] std::optional<Gap> search(CondId timer, std::uint32_t level) {
+  /// Where the timer is the library's, messages about rules of the library alone would be `hidden`.
+  [[nodiscard]] std::optional<Gap> search(CondId timer, std::uint32_t level, bool hidden) {
+    if (common_.spent()) return std::nullopt;
     const Demands timed = common_.satisfier.demands(program_[timer].children.front(), level);
     if (!timed.possible) return std::nullopt;
     for (const Restriction& one : timed.each) {
@@ -247,6 +257,7 @@ class GapQuestions {
       if (raisers.empty()) continue;
       for (const RuleId lowers : that_write(cell, level, static_cast<std::uint32_t>(program_.levels.size()), false)) {
         for (const RuleId raises : raisers) {
+          if (hidden && program_[lowers].standard && program_[raises].standard) continue;
           if (common_.spent()) return std::nullopt;
           if (possible({timed, program_[timer].children.front(), level, cell}, lowers, raises)) return Gap{timer, cell, lowers, raises};
         }
@@ -311,13 +322,13 @@ class GapQuestions {
     });
   }
 
-  void report(const Rule& rule, const Gap& gap, std::uint32_t count) const {
+  void report(const Rule& rule, const Gap& gap) const {
     const Rule& lowers = program_[gap.lowers];
     const Rule& raises = program_[gap.raises];
     const Rule& at = !rule.standard ? rule : !raises.standard ? raises : !lowers.standard ? lowers : rule;
     const std::string_view cell = program_[gap.cell].name, level = program_.levels[rule.level];
     auto message = subject_.diagnostics.report(Kind::kUnseenGap, at.span,
-        {program::print_condition(program_, gap.timer), rule.name, cell, lowers.name, level, raises.name, more(count)});
+        {program::print_condition(program_, gap.timer), rule.name, cell, lowers.name, level, raises.name});
     message.note(Kind::kGapIsSeen, {}, {raises.name, level, cell, rule.name, program_.levels[raises.level]});
     for (const Rule* other : {&rule, &lowers, &raises}) {
       const bool twice = other->span == at.span || (other == &raises && other->span == lowers.span);
@@ -329,7 +340,8 @@ class GapQuestions {
   const Program& program_;
   float firing_;
   Common common_;
-  std::map<std::pair<CondId, std::uint32_t>, std::optional<Gap>> known_;   // by timer and level
+  std::vector<bool> told_;   // by family: an instance speaks for all
+  std::map<std::tuple<CondId, std::uint32_t, bool>, std::optional<Gap>> known_;   // by timer, level, and `hidden`
 };
 
 }  // namespace

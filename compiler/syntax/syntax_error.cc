@@ -42,7 +42,8 @@ void SyntaxError::report() {
 
 // `-- ...`, `(* ... *)`: these signs have a meaning elsewhere, so the scanner lets them pass.
 bool SyntaxError::is_comment() {
-  if (kind_ == T::kTwoWay && statement_ != T::kMap) return say(Kind::kForeignComment, found_.span, {"--"});
+  const bool ways = statement_ == T::kMap || statement_ == T::kRoute || statement_ == T::kDetour;
+  if (kind_ == T::kTwoWay && !ways) return say(Kind::kForeignComment, found_.span, {"--"});
   const bool opens = kind_ == T::kLeftParen && stream_.ahead(1).kind == T::kStar && stream_.ahead(1).span.begin == found_.span.end;
   const bool inside = kind_ == T::kStar && last_.kind == T::kLeftParen && last_.span.end == found_.span.begin && stream_.behind(2).kind != T::kIdentifier;
   return (opens || inside) && say(Kind::kForeignComment, opens ? found_.span : last_.span, {"(*"});
