@@ -17,8 +17,8 @@ namespace kb::planners {
 
 /// When the modified bug may leave a wall.
 enum class LeaveRule : std::uint8_t {
-  /// As printed: the path ahead is free, and the line to the goal does not enter the passed path from its right side. There is no proof,
-  /// and inside rooms the robot spirals: it goes round again a little farther in, never crossing its path. A closed loop without a
+  /// As printed: the path ahead is free, and the line to the goal does not enter the passed path from its right side. It ends, but whether it finds each
+  /// way that there is has no proof: inside rooms the robot spirals: it goes round again a little farther in, never crossing its path. A closed loop without a
   /// departure is kTrapped, not kUnreachable, unless the loop proves more.
   kLiteral,
   /// The same, but only at a point nearer to the goal than every hit so far. After a closed loop without such a point the robot goes to the

@@ -1,5 +1,4 @@
-// Moving goals and moving obstacles: potential fields over relative place and velocity (Ge and Cui, Autonomous Robots 13:207-222, 2002,
-// to which Filimonov and Filimonov refer).
+// Moving goals and moving obstacles: potential fields over relative place and velocity (Ge and Cui, Autonomous Robots 13:207-222, 2002).
 //
 //   U_att = a_p ||p_g - p||^m + a_v ||v_g - v||^n,   F_att = m a_p ||p_g - p||^(m-1) n_p + n a_v ||v_g - v||^(n-1) n_v
 //

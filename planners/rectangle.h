@@ -1,4 +1,5 @@
-// A rectangular robot: forces at control points, their sum and their moment (Filimonov and Filimonov 2019, section on extensions).
+// A rectangular robot: forces at control points, their sum and their moment (Filimonov and Filimonov 2019 name the
+// extension in their conclusion; control points and sums are ours).
 //
 //   F = sum F_i,   M = sum (r_i - r_c) x F_i      over the four corners and the middles of the four sides
 //

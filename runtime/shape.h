@@ -15,7 +15,7 @@
 //   kBell      1 / (1 + u^2b)    u = (d - high) * fall right of it         bell; b is `slope`
 //   kSigmoid   1 / (1 + exp(-(d - low) * slope))                           sigmoid
 //
-// LR fuzzy numbers: Dubois and Prade, "Operations on fuzzy numbers", 1978. The bell: Jang, "ANFIS", 1993, equation 4.
+// LR fuzzy numbers: Dubois and Prade, "Operations on fuzzy numbers", 1978. The bell: Jang, "ANFIS", 1993.
 #pragma once
 
 #include <cstdint>

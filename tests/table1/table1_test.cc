@@ -18,7 +18,7 @@ Result replay_by(world::MindKind kind) {
   return replay(file("table1.csv"), *knowledge, *mind);
 }
 
-/// 831 of 833: the other two are misprints of the paper. Nothing can have set `satfU_Moving_dist` in 14b (compare 3 and
+/// All but two of 833, of which 289 are facts that are fed: we take those for misprints of the paper. Nothing can have set `satfU_Moving_dist` in 14b (compare 3 and
 /// 14d); `UManeuver_left_mark` is wanted in 14d and nothing competes (compare 3 and 14b).
 void expect_all_but_the_two_misprints(const Result& result) {
   EXPECT_EQ(result.cells.size(), 833u);
