@@ -5,7 +5,7 @@
 // In the paper's spirit m = 1 (conic: the same pull at any distance) and n = 2. Within `near_m` of the goal m = 2, joined without a jump,
 // so that the robot comes to rest beside the goal and does not chatter. An obstacle repels only while the robot closes in on it, with
 // v_RO > 0 along the line between them, and only if the distance that remains after braking, p - v_RO^2 / (2 a_max), is less than p0
-// (their equations (19) and (20)).
+// (their equations (19) and (20)). Like theirs it is the sum of a gradient by place and one by velocity; the gain of the second is 1/s.
 //
 // There is no guarantee with moving obstacles: the field knows neither where they will be nor the way out of a pit.
 #pragma once

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "compiler/model/draft.h"
@@ -58,7 +59,9 @@ class DeclarationReader {
     if (kind_ != CellKind::kSatellite) {
       if (declaration_.keep) refuse("keep", *declaration_.keep);
       if (declaration_.output) refuse("output", *declaration_.output, kind_ == CellKind::kFact ? "; the program gives them" : "; the program is told which one runs");
-      if (declaration_.initial) refuse("= v", declaration_.initial->span, kind_ == CellKind::kFact ? "; their satellites begin as `sat = v` says" : kWantedFromStart);
+      const std::string_view hint = kind_ == CellKind::kFact ? "; their satellites begin as `sat = v` says" : kWantedFromStart;
+      if (declaration_.initial) refuse("= v", declaration_.initial->span, hint);
+      for (const auto& value : member_values()) refuse("= v", value->span, hint);
       for (const Declaration::Item& item : declaration_.items) {
         if (item.of) refuse("of", tree_[*item.of].span);
       }
@@ -73,11 +76,20 @@ class DeclarationReader {
     if (kind_ == CellKind::kStrategy && declaration_.exclusive) {
       refuse("exclusive", *declaration_.exclusive, "; one runs at a time as it is, by `priority`");
     }
-    if (kind_ == CellKind::kSatellite) check_range(declaration_.initial);
+    if (kind_ == CellKind::kSatellite) {
+      check_range(declaration_.initial);
+      for (const auto& value : member_values()) check_range(value);
+    }
     if (kind_ != CellKind::kFact) return;
     check_range(declaration_.sat_initial);
     refuse_unit(declaration_.event);
     refuse_unit(declaration_.attention);
+  }
+
+  [[nodiscard]] std::vector<std::optional<syntax::Number>> member_values() const {
+    std::vector<std::optional<syntax::Number>> values;
+    for (const Declaration::Item& item : declaration_.items) std::ranges::copy_if(item.values, std::back_inserter(values), [](const auto& value) { return value.has_value(); });
+    return values;
   }
 
   void refuse_definitions() {
@@ -147,10 +159,11 @@ class DeclarationReader {
     group.dimensions = std::move(dimensions);
     group.declared = item.name.span;
     std::vector<std::size_t> at(group.dimensions.size(), 0);
+    const std::vector<const syntax::Number*> own = own_values(item, group);
     std::size_t count = 1;
     for (const SetId set : group.dimensions) count *= draft_.model.sets[index(set)].members.size();
     for (std::size_t i = 0; i < count; ++i) {
-      group.cells.push_back(make_cell(cell_name(group, at), item.name.span));
+      group.cells.push_back(make_cell(cell_name(group, at), item.name.span, own.empty() ? nullptr : own[at.front()]));
       next_combination(at, [&](std::size_t d) { return draft_.model.sets[index(group.dimensions[d])].members.size(); });
     }
     draft_.model.groups.push_back(std::move(group));
@@ -165,7 +178,20 @@ class DeclarationReader {
     return at.size() == 1 ? draft_.model.texts->keep({group.name, ".", members}) : draft_.model.texts->keep({group.name, "[", members, "]"});
   }
 
-  CellId make_cell(std::string_view name, source::Span at) {
+  /// What the members of `satellites X { a = 1, b }` begin with, by member; null: as the statement says. Empty: none of them says so.
+  [[nodiscard]] std::vector<const syntax::Number*> own_values(const Declaration::Item& item, const Group& group) const {
+    std::vector<const syntax::Number*> own;
+    if (kind_ != CellKind::kSatellite || item.shape != Declaration::Item::Shape::kMembers) return own;
+    for (std::size_t i = 0; i < item.names.size(); ++i) {
+      if (!item.values[i]) continue;
+      own.resize(draft_.model.sets[index(group.dimensions.front())].members.size());
+      if (const auto member = draft_.member(group.dimensions.front(), item.names[i].text)) own[member->index] = &*item.values[i];
+    }
+    return own;
+  }
+
+  /// `value`: an initial value of its own; null: that of the statement.
+  CellId make_cell(std::string_view name, source::Span at, const syntax::Number* value = nullptr) {
     Cell cell;
     cell.name = name;
     cell.kind = kind_;
@@ -180,7 +206,8 @@ class DeclarationReader {
       cell.initial = -1.0f;
     }
     if (kind_ == CellKind::kSatellite) {
-      if (declaration_.initial) cell.initial = static_cast<float>(declaration_.initial->value);
+      if (value == nullptr && declaration_.initial) value = &*declaration_.initial;
+      if (value != nullptr) cell.initial = static_cast<float>(value->value);
       cell.keep = declaration_.keep.has_value();
       cell.output = declaration_.output.has_value();
     }
@@ -211,9 +238,13 @@ class DeclarationReader {
       draft_.diagnostics.report(Kind::kLoneExclusive, at, {draft_.model[made_.front()].name});
       return;
     }
-    if (declaration_.initial && declaration_.initial->value > 0.0) {
-      draft_.diagnostics.report(Kind::kTwoInitiallyHigh, declaration_.initial->span,
-                                {draft_.model[made_[0]].name, draft_.model[made_[1]].name});
+    std::vector<CellId> high;
+    std::ranges::copy_if(made_, std::back_inserter(high), [&](CellId cell) { return draft_.model[cell].initial > 0.0f; });
+    if (high.size() > 1) {
+      std::vector<std::optional<syntax::Number>> own = member_values();
+      std::erase_if(own, [](const auto& value) { return value->value <= 0.0; });
+      const source::Span where = own.size() > 1 ? own[1]->span : declaration_.initial ? declaration_.initial->span : at;
+      draft_.diagnostics.report(Kind::kTwoInitiallyHigh, where, {draft_.model[high[0]].name, draft_.model[high[1]].name});
     }
     draft_.model.exclusive.push_back(made_);
   }

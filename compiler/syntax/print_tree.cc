@@ -106,6 +106,7 @@ std::string Printer::members(const Declaration::Item& item) const {
   for (std::size_t i = 0; i < item.names.size(); ++i) {
     out += fmt::format("{}{}", i == 0 ? "" : ", ", item.names[i].text);
     if (item.definitions[i]) out += " = " + percept_text(tree_, *item.definitions[i]);
+    if (item.values[i]) out += " = " + number_text(*item.values[i]);
   }
   return out;
 }

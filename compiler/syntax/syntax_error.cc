@@ -34,7 +34,7 @@ void SyntaxError::report() {
   const bool known = is_comment() || is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_late_of() || is_trailing_comma() ||
                      is_other_bracket() || is_row_without_fields() || is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() ||
                      is_names_as_set() || is_map_line() || is_rule_head() || is_percept() || is_condition() || is_effect() || is_route() || is_road() || is_order() ||
-                     is_quoted_name() || is_missing_comma() || is_type() || is_member_value() || is_unknown_attribute() || is_word_as_name();
+                     is_quoted_name() || is_missing_comma() || is_type() || is_unknown_attribute() || is_word_as_name();
   if (!known) report_unexpected();
 }
 
@@ -236,14 +236,6 @@ bool SyntaxError::is_type() {
   if (statement_ == T::kRelation && kind_ == T::kColon && wants(T::kComma)) return say(Kind::kFieldType, found_.span, {text(last_.span)});
   if (!is_declaration(statement_) || !wants(T::kExclusive)) return false;
   return say(Kind::kCellType, found_.span, {singular(statement_), text(last_.span)});
-}
-
-// `satellites Turn { left = 1, right }`
-bool SyntaxError::is_member_value() {
-  const bool inside = is_declaration(statement_) && stream_.open_bracket().kind == T::kLeftBrace;
-  if (!inside || last_.kind != T::kEqual || (kind_ != T::kNumber && kind_ != T::kMinus)) return false;
-  const source::Span value = kind_ == T::kMinus ? source::join(found_.span, stream_.ahead(1).span) : found_.span;
-  return say(Kind::kMemberValue, value, {text(value)});
 }
 
 bool SyntaxError::is_unknown_attribute() {

@@ -64,7 +64,6 @@ class SyntaxError {
   [[nodiscard]] bool is_quoted_name();
   [[nodiscard]] bool is_missing_comma();
   [[nodiscard]] bool is_type();
-  [[nodiscard]] bool is_member_value();
   [[nodiscard]] bool is_unknown_attribute();
   [[nodiscard]] bool is_word_as_name();
   void report_unexpected();

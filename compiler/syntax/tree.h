@@ -138,6 +138,7 @@ struct Declaration {
     enum class Shape : std::uint8_t { kPlain, kMembers, kOver } shape = Shape::kPlain;  ///< X   X { a, b }   X[A, B]
     std::vector<Name> names;     ///< the members, or the sets
     std::vector<std::optional<PerceptId>> definitions;  ///< by member: what it is perceived by (kMembers)
+    std::vector<std::optional<Number>> values;          ///< by member: an initial value of its own, `left = 1` (kMembers, satellites)
     std::optional<RefId> of;     ///< `of X` (satellites only); one `of` serves all items since the last one
   };
   Kind kind = Kind::kFact;

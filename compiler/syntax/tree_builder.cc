@@ -107,14 +107,16 @@ void TreeBuilder::begin_declaration(Declaration::Kind kind, bool plural) {
   items_with_of_ = 0;
 }
 
-void TreeBuilder::add_item(Span name) { declaration_.items.push_back({name_at(name), {}, {}, {}, {}}); }
+void TreeBuilder::add_item(Span name) { declaration_.items.push_back({name_at(name), {}, {}, {}, {}, {}}); }
 
 void TreeBuilder::item_names(Declaration::Item::Shape shape) {
   declaration_.items.back().shape = shape;
   declaration_.items.back().names = std::move(names_);
   declaration_.items.back().definitions = std::move(definitions_);
+  declaration_.items.back().values = std::move(values_);
   names_.clear();
   definitions_.clear();
+  values_.clear();
 }
 
 void TreeBuilder::items_of(Id ref) {

@@ -46,6 +46,7 @@ class TreeBuilder {
   void begin_declaration(Declaration::Kind kind, bool plural);
   void add_item(Span name);
   void add_member(Span name, Id percept = kNothing);
+  void add_member_value(Span name, Id number);
   void item_names(Declaration::Item::Shape shape);
   void items_of(Id ref);
   void exclusive(Span span);
@@ -239,6 +240,7 @@ class TreeBuilder {
   Shape shape_;
   Shape::Argument shape_argument_;
   std::vector<std::optional<PerceptId>> definitions_;
+  std::vector<std::optional<Number>> values_;
   Sensor sensor_;
   Fuzzy fuzzy_;
   std::vector<FuzzyRef> fuzzy_refs_;

@@ -40,7 +40,13 @@ void TreeBuilder::sensor() { add(std::move(sensor_)); }
 void TreeBuilder::add_member(Span name, Id percept) {
   add_name(name);
   definitions_.resize(names_.size());
+  values_.resize(names_.size());
   if (percept != kNothing) definitions_.back() = PerceptId{percept};
+}
+
+void TreeBuilder::add_member_value(Span name, Id number) {
+  add_member(name);
+  values_.back() = numbers_[number];
 }
 
 void TreeBuilder::definition(Span span, Id percept) {
