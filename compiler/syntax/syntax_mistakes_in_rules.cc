@@ -88,9 +88,10 @@ bool SyntaxError::is_operator() {
   if (kind_ != T::kIdentifier || !wants(T::kAnd)) return false;
   const auto form = std::ranges::find_if(kForms, [this](const auto& one) { return source::lower(std::string(text())) == one[0]; });
   if (form == std::end(kForms)) return false;
-  const T before = stream_.behind(2).kind, behind = stream_.ahead(2).kind;
-  const bool simple = last_.kind == T::kIdentifier && before != T::kDot && before != T::kSat && stream_.ahead(1).kind == T::kIdentifier && behind != T::kDot && behind != T::kLeftBracket;
-  const std::string left(simple ? text(last_.span) : "A"), right(simple ? text(stream_.ahead(1).span) : "B");
+  constexpr T kBefore[] = {T::kWhen, T::kWhile, T::kLeftParen, T::kAnd, T::kOr}, kBehind[] = {T::kThen, T::kRightParen, T::kAnd, T::kOr};
+  const bool alone = std::ranges::count(kBefore, stream_.behind(2).kind) > 0 && std::ranges::count(kBehind, stream_.ahead(2).kind) > 0;
+  const bool simple = alone && last_.kind == T::kIdentifier && stream_.ahead(1).kind == T::kIdentifier;
+  const std::string left(simple ? text(last_.span) : "<left>"), right(simple ? text(stream_.ahead(1).span) : "<right>");
   return say(Kind::kNoSuchOperator, found_.span, {text(), fmt::format(fmt::runtime((*form)[1]), left, right)});
 }
 

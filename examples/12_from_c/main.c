@@ -9,7 +9,7 @@ static const struct reading readings[] = {{0, -1, -1}, {500, 1, -1}, {600, -1, -
 
 int main(void)
 {
-    const int period_ms = 100;
+    enum { period_ms = 100 };
     size_t next = 0;
     enum mind_strategy before = MIND_NOTHING;
     bool was_stuck = false;

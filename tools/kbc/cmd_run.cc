@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -83,9 +84,13 @@ struct Counts {
 
 // Everything that takes the ticks of a run.
 struct Sinks {
-  std::optional<trace::OutputFile> trace;
+  std::array<trace::OutputFile, 2> files;   // for the trace and for the page; those that are not open are not written
+  trace::OutputFile* trace = nullptr;
   std::optional<trace::Table> table;
   std::optional<RecordedPage> page;
+
+  /// Whether what is written stays hidden until all is.
+  [[nodiscard]] bool stays_beside() const { return std::ranges::any_of(files, &trace::OutputFile::stays_beside); }
 };
 
 bool open_sinks(const RunOptions& options, const program::Program& program, Sinks& sinks, Session& session,
@@ -99,16 +104,17 @@ bool open_sinks(const RunOptions& options, const program::Program& program, Sink
     if (!vain.empty()) return false;
   }
   if (!options.html.empty()) {
-    if (!session.may_write(options.html)) return false;
+    if (!session.open_output(sinks.files[1], options.html)) return false;
     sinks.page.emplace(program, fmt::format("{} on {}", options.file, options.recorded.path()));
   }
   if ((options.table || sinks.page) && options.trace.empty()) return true;
   const std::string path = options.trace.empty() ? "-" : options.trace;
-  return session.open_output(sinks.trace.emplace(), path);
+  sinks.trace = &sinks.files[0];
+  return session.open_output(*sinks.trace, path);
 }
 
 // Gives the tick to all sinks. True if they could take it.
-bool take(const program::Tick& tick, std::span<const float> facts, const trace::Engine& engine, const program::Program& program, Sinks& sinks,
+bool take(const program::Tick& tick, const trace::Engine& engine, const program::Program& program, Sinks& sinks,
           diagnostics::Diagnostics& diagnostics) {
   if (!engine.disagreement().empty()) {
     diagnostics.report(Kind::kEnginesDisagree, {}, {fmt::format("{}", tick.number), engine.disagreement()});
@@ -119,7 +125,7 @@ bool take(const program::Tick& tick, std::span<const float> facts, const trace::
     sinks.trace->write("\n");
     if (sinks.trace->failed()) return true;  // reported once, when the file is closed
   }
-  if (sinks.page && !sinks.page->add(tick, facts, engine)) {
+  if (sinks.page && !sinks.page->add(tick, engine)) {
     diagnostics.report(Kind::kPageTooLong, {}, {diagnostics::counted(RecordedPage::kMostTicks, "tick")});
     return false;
   }
@@ -140,7 +146,7 @@ bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& sens
       diagnostics.report(Kind::kEnginesDisagree, {}, {fmt::format("{}", tick.number), senses.disagreement()});
       return false;
     }
-    if (!take(tick, facts, engine, program, sinks, diagnostics)) return false;
+    if (!take(tick, engine, program, sinks, diagnostics)) return false;
     if (sinks.trace && sinks.trace->failed()) break;
     counts.add(tick, facts, program, senses.looks());
     progress.update(counts.ticks);
@@ -151,7 +157,7 @@ bool play(trace::FactsReader& reader, trace::Engine& engine, trace::Senses& sens
 // False (reported) if the recording ends before the first tick that the table is to show.
 bool has_ticks(const RunOptions& options, const Sinks& sinks, const Counts& counts, diagnostics::Diagnostics& diagnostics) {
   const auto wanted = trace::parse_ticks(options.ticks);
-  const bool cut_off = sinks.trace && sinks.trace->failed();   // reported when it is closed
+  const bool cut_off = sinks.trace != nullptr && sinks.trace->failed();   // reported when it is closed
   if (!wanted || cut_off || wanted->first <= counts.ticks) return true;
   diagnostics.report(Kind::kWhyNoTick, {},
                      {fmt::format("{}", wanted->first), options.recorded.path(), diagnostics::counted(counts.ticks, "tick")});
@@ -159,13 +165,14 @@ bool has_ticks(const RunOptions& options, const Sinks& sinks, const Counts& coun
 }
 
 bool close_sinks(const RunOptions& options, Sinks& sinks, const Counts& counts, Session& session, diagnostics::Diagnostics& diagnostics) {
-  if (sinks.trace && !sinks.trace->commit()) {
-    diagnostics.report(Kind::kCannotWrite, {},
-                       {options.trace.empty() ? "standard output" : options.trace, sinks.trace->error()});
+  if (sinks.page) sinks.files[1].write(sinks.page->html(counts.faults_text()));
+  if (const auto refused = trace::OutputFile::commit_all(sinks.files)) {
+    const std::string& path = *refused == 1 ? options.html : options.trace;
+    diagnostics.report(Kind::kCannotWrite, {}, {path.empty() || path == "-" ? "standard output" : path, sinks.files[*refused].error()});
     return false;
   }
   if (sinks.table) session.print(sinks.table->print());
-  return !sinks.page || session.write_files({{options.html, sinks.page->html(counts.faults_text())}});
+  return true;
 }
 
 void summarise(const RunOptions& options, const Counts& counts, Session& session) {
@@ -186,7 +193,7 @@ int run(const RunOptions& options, Session& session) {
   std::optional<Interrupts> interrupts(std::in_place);   // before the trace is opened, so that an interrupt leaves no half of it behind
   Sinks sinks;
   if (!input.reader || !open_sinks(options, program, sinks, session, diagnostics)) return kErrors;
-  if (!sinks.trace || !sinks.trace->stays_beside()) interrupts.reset();
+  if (!sinks.stays_beside()) interrupts.reset();
   const trace::EngineKind kind = *trace::find_engine(options.engine);
   const auto engine = make_engine(kind, *compiled);
   trace::Senses senses(program, kind);

@@ -21,18 +21,18 @@ void RecordedPage::put(program::CellId cell, float value, sim::Frame& frame) {
   frame.changed.push_back({static_cast<std::uint32_t>(cell), value});
 }
 
-bool RecordedPage::add(const program::Tick& tick, std::span<const float> facts, const trace::Engine& engine) {
+bool RecordedPage::add(const program::Tick& tick, const trace::Engine& engine) {
   constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
   if (recording_.frames.size() == kMostTicks) return false;
   sim::Frame frame;
   frame.t_s = static_cast<double>(tick.time_us) / 1e6;
   frame.pose = {kNowhere, kNowhere, kNowhere};
-  for (std::uint32_t f = 0; f < facts.size(); ++f) put(program::CellId{f}, program::is_certainty(facts[f]) ? facts[f] : 0.0f, frame);
+  const auto ask = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) put(static_cast<program::CellId>(i), engine.value(static_cast<program::CellId>(i)), frame);
+  };
+  ask(0, program_.facts);
   for (const program::CellValue& set : tick.set) put(set.cell, set.value, frame);
-  for (std::size_t s = values_.size() - program_.strategies; s < values_.size(); ++s) {
-    const auto strategy = static_cast<program::CellId>(s);
-    put(strategy, engine.value(strategy), frame);
-  }
+  ask(values_.size() - program_.strategies, values_.size());
   if (tick.strategy != program::CellId::kNone) frame.strategy = static_cast<std::int32_t>(tick.strategy);
   frame.status = program::status_text(tick.status);
   sim::tell(tick, program_, frame);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -20,8 +19,8 @@ class RecordedPage {
 
   /// `program` must outlive it.
   RecordedPage(const program::Program& program, std::string title);
-  /// A tick that the engine has just made of these facts. False: there are too many. O(facts + strategies + changes).
-  [[nodiscard]] bool add(const program::Tick& tick, std::span<const float> facts, const trace::Engine& engine);
+  /// A tick that the engine has just made. False: there are too many. O(facts + strategies + changes).
+  [[nodiscard]] bool add(const program::Tick& tick, const trace::Engine& engine);
   /// `outcome`: what stands beside the title.
   [[nodiscard]] std::string html(std::string outcome);
 

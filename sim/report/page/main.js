@@ -67,7 +67,7 @@ class App {
   speak() {
     const drive = this.drive, frame = this.frame;
     if (drive.count) set(byId('spoken'), `tick ${frame + 1}, ${drive.strategyName(frame) || 'no strategy'}, ${drive.legs.length ? `leg ${drive.leg.at(frame) || 'none'}, ` : ''}${drive.status.at(frame)}`);
-    byId('floor').setAttribute('aria-label', `The labyrinth from above at ${clock(drive.t[frame])}: ${drive.strategyName(frame) || 'no strategy'}, at ${(drive.x[frame] || 0).toFixed(2)} m east, ${(drive.y[frame] || 0).toFixed(2)} m north`);
+    if (drive.picture.landmarks.length) byId('floor').setAttribute('aria-label', `The labyrinth from above at ${clock(drive.t[frame])}: ${drive.strategyName(frame) || 'no strategy'}, at ${(drive.x[frame] || 0).toFixed(2)} m east, ${(drive.y[frame] || 0).toFixed(2)} m north`);
   }
 
   buttons() {

@@ -66,20 +66,26 @@ void FactsReader::warn_of_unperceived(const LineReader::Line& line) {
   for (const std::uint32_t column : columns_) {
     if (column != kTimeColumn) given[column] = CellId{column};
   }
+  std::vector<bool> asked(program_.facts, false);   // by a rule
+  for (const program::Cond& cond : program_.conds) {
+    if (program::index(cond.cell) < program_.facts) asked[program::index(cond.cell)] = true;
+  }
+  bool gives_perceived = false;
   CellId first = CellId::kNone;
   std::size_t count = 0;
   for (const program::Perceived& perceived : perception.perceived) {   // those that define a fact come before it
     CellId& fact = given[program::index(perceived.fact)];
+    gives_perceived = gives_perceived || fact == perceived.fact;
     if (fact != CellId::kNone) continue;
     fact = defining_column(perception, perceived.percept, given);
-    if (fact == CellId::kNone || perceived.lazy) continue;
+    if (fact == CellId::kNone || perceived.lazy || !asked[program::index(perceived.fact)]) continue;
     if (count++ == 0) first = perceived.fact;
   }
   if (count == 0) return;
   const std::string more = count > 1 ? fmt::format(" (and {} more)", diagnostics::counted(count - 1, "fact")) : std::string();
   const auto end = static_cast<std::uint32_t>(line.text.size());
-  report(Kind::kFactsUnperceived, line, {0, std::max(end, 1u)}, {program_[first].name, program_[given[program::index(first)]].name, more})
-      .note(Kind::kFactsByReadings, {});
+  auto message = report(Kind::kFactsUnperceived, line, {0, std::max(end, 1u)}, {program_[first].name, program_[given[program::index(first)]].name, more});
+  if (!gives_perceived) message.note(Kind::kFactsByReadings, {});   // readings cannot give what is perceived
 }
 
 std::vector<bool> FactsReader::given() const {

@@ -72,7 +72,8 @@ std::size_t end_of_option(std::string_view line, std::size_t at) {
   const std::string_view name = source::trimmed(text.substr(0, text.find(':')));
   if (name == "compare") {
     const std::size_t next = line.find(':', at + text.find(':') + 1);
-    return next == line.npos ? line.size() : std::max(comma, line.rfind(',', next));
+    const std::size_t before = next == line.npos ? line.npos : line.rfind(',', next);
+    return before == line.npos || before < at ? line.size() : before;
   }
   if (name != "kb") return comma;
   for (std::size_t end = comma;; end = std::min(line.find(',', end + 1), line.size())) {

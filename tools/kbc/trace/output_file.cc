@@ -154,7 +154,8 @@ void OutputFile::keep_old() {
 void OutputFile::bring_back_old() {
   if (!moved_) return;
   if (is_new_) ::unlink(target_.c_str());
-  else if (!old_.empty() && ::rename(old_.c_str(), target_.c_str()) == 0) old_.clear();
+  else if (!old_.empty()) static_cast<void>(::rename(old_.c_str(), target_.c_str()));
+  old_.clear();   // if that is refused, too, the old contents stay under their other name
 }
 
 std::optional<std::size_t> OutputFile::commit_all(std::span<OutputFile> files) {
