@@ -66,7 +66,7 @@ void FactsReader::warn_of_unperceived(const LineReader::Line& line) {
   for (const std::uint32_t column : columns_) {
     if (column != kTimeColumn) given[column] = CellId{column};
   }
-  std::vector<bool> asked(program_.facts, false);   // by a rule
+  std::vector<bool> asked(program_.facts, program_.conds.empty());   // by a rule; of two knowledge bases only the inputs are known here
   for (const program::Cond& cond : program_.conds) {
     if (program::index(cond.cell) < program_.facts) asked[program::index(cond.cell)] = true;
   }
