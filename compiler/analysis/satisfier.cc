@@ -1,7 +1,6 @@
 #include "compiler/analysis/satisfier.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
@@ -24,13 +23,6 @@ constexpr std::uint8_t kHigh = kRegionHigh | kRegionHighZero;
 /// seen from a lower certainty on may be seen at once.
 bool high_while_seen(const program::Program& program, CellId fact) {
   return program::thresholds(program[fact]).attended >= static_cast<float>(program.settings.firing);
-}
-
-/// What a timer that has run out says of a sighting that its condition demands, which has been so on the tick before as well.
-std::optional<Sightings> held_sighting(Sightings demanded) {
-  if ((demanded & ~kSeen) == 0) return kStillSeen;
-  if ((demanded & kSeen) == 0) return kUnseen;
-  return std::nullopt;
 }
 
 }  // namespace
@@ -73,42 +65,9 @@ Satisfier::Satisfier(const program::Program& program, const Domains& domains, Co
   }
   for (const CellId strategy : program.priority) choice_of_[program::index(strategy)] = choices;
   holder_.assign(choices + 1, kNobody);
+  elapsed_.resize(program.conds.size());
   find_timed_events();
 }
-
-/// Finds `for` conditions over events, which never hold, and what the others say of sightings. Parts have smaller numbers than the conditions
-/// that contain them, so what is found for a part is known when its whole is examined.
-void Satisfier::find_timed_events() {
-  const auto sightings = static_cast<std::uint32_t>(program_.cells.size());
-  std::map<std::size_t, std::vector<CondId>> timers;   // by what they time; a long one holds only where a shorter one does
-  for (std::uint32_t i = 0; i < program_.conds.size(); ++i) {
-    const Cond& cond = program_.conds[i];
-    if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
-    const std::vector<Restriction> each = demands(cond.children.front(), 0).each;
-    const auto is_sighting = [&](const Restriction& demand) { return demand.variable >= sightings && demand.variable < sightings + program_.facts; };
-    const bool moment = std::ranges::any_of(each, [&](const Restriction& demand) {
-      return is_sighting(demand) && (demand.allowed == kJustSeen || demand.allowed == kJustLost);
-    });
-    begin(0);   // undoes the assumptions
-    if (!moment) {
-      std::vector<CondId>& others = timers[program::index(cond.children.front())];
-      for (const CondId other : others) {
-        const bool is_longer = program_[other].duration_us > cond.duration_us;
-        held_[is_longer ? other : CondId{i}].push_back({timer_of(is_longer ? CondId{i} : other), kTimerTrue});
-      }
-      others.push_back(CondId{i});
-      for (const Restriction& demand : each) {
-        const auto held = is_sighting(demand) ? held_sighting(demand.allowed) : std::nullopt;
-        if (held) held_[CondId{i}].push_back({demand.variable, *held});
-      }
-      continue;
-    }
-    timed_events_.push_back(CondId{i});
-    values_[timer_of(CondId{i})] = kTimerFalse;
-  }
-}
-
-bool Satisfier::is_timed_event(CondId condition) const { return std::binary_search(timed_events_.begin(), timed_events_.end(), condition); }
 
 std::uint32_t Satisfier::sighting_of(CellId fact) const {
   return static_cast<std::uint32_t>(program_.cells.size() + program::index(fact));
@@ -133,6 +92,7 @@ Satisfier::Question Satisfier::question(CondId condition) const {
 std::uint8_t Satisfier::allowed(std::uint32_t variable) const {
   std::uint8_t values = values_[variable];
   const std::size_t cells = program_.cells.size();
+  if (variable >= cells + program_.facts) return static_cast<std::uint8_t>(values & left_by_others(variable));
   if (control_level_ && variable < cells && program_.cells[variable].kind == CellKind::kStrategy) values &= kRegionLow;
   const std::uint32_t choice = choice_of_[variable];
   if (choice == kNoChoice || holder_[choice] == kNobody || holder_[choice] == variable) return values;
@@ -145,6 +105,7 @@ bool Satisfier::narrow(std::uint32_t variable, std::uint8_t wanted) {
   if (left != values_[variable]) {
     trail_.push_back({variable, values_[variable]});
     values_[variable] = left;
+    if (variable >= timer_of(CondId{0})) note_elapsed(variable);
     if (confusions_ != nullptr && !may_be_sure(variable)) return false;
   }
   const std::uint32_t choice = choice_of_[variable];
@@ -338,6 +299,7 @@ void Satisfier::undo(std::size_t trail, std::size_t open) {
     }
   }
   while (!sure_.empty() && sure_.back().trail > trail_.size()) sure_.pop_back();
+  for (; !timed_.empty() && timed_.back().trail > trail_.size(); timed_.pop_back()) elapsed_[program::index(timed_.back().condition)] = timed_.back().before;
   open_.resize(open);
   closed_.resize(open);
 }

@@ -5,8 +5,8 @@
 // - at most one member of an exclusive group is high, and, among facts that are seen only while they are high, at most one is seen;
 // - at most one strategy runs;
 // - a fact's sighting limits its certainty, and its certainty the sighting;
-// - a condition that has held for a while holds now, and held on the tick before; an event never holds for a while, nor does it come for
-//   what has been seen for a while;
+// - a condition that has held for a while holds now, held on the tick before, and has held for any shorter while; an event never holds
+//   for a while, nor does it come for what has been seen for a while;
 // - two perceived facts that no readings make certain at once are not both high, or both seen (a host that gives such facts itself can
 //   make them so).
 // It knows nothing of earlier ticks, so `kYes` means "it cannot be ruled out".
@@ -90,7 +90,20 @@ class Satisfier {
     std::size_t open;
   };
 
+  /// How long a condition has held, as far as the timers over it say.
+  struct Elapsed {
+    std::int64_t at_least = -1;
+    std::int64_t below = INT64_MAX;
+  };
+  struct Timed {
+    program::CondId condition;
+    Elapsed before;
+    std::size_t trail;                    // how long that was
+  };
+
   void find_timed_events();
+  [[nodiscard]] std::uint8_t left_by_others(std::uint32_t timer) const;
+  void note_elapsed(std::uint32_t timer);
   void begin(std::uint32_t level);
   [[nodiscard]] bool assume(Goal goal);
   [[nodiscard]] bool assume_leaf(Goal goal);
@@ -132,6 +145,8 @@ class Satisfier {
   std::vector<std::uint32_t> holder_;     // by choice: the variable that has it, or kNobody
   std::vector<Change> trail_;             // to undo: places of values, then of holders, then of `closed_`
   std::vector<Sure> sure_;                // perceived facts that must be high, or seen
+  std::vector<Elapsed> elapsed_;          // by condition
+  std::vector<Timed> timed_;              // timers that are certain, to undo
   std::vector<Goal> open_;                // goals of which one part must hold (or fail)
   std::vector<bool> closed_;              // by open goal: met, or a part of it was taken
   std::vector<Goal> pending_;
