@@ -226,9 +226,27 @@ class ConditionQuestions {
     return changes;
   }
 
+  /// Whether the condition is as wanted at start-up, whatever facts there are. Recursion as deep as conditions nest.
+  [[nodiscard]] bool holds_without_facts(CondId id, bool wanted) const {
+    const Cond& cond = program_[id];
+    const auto part_holds = [&](CondId part) { return holds_without_facts(part, wanted); };
+    switch (cond.op) {
+      case Cond::Op::kNot: return holds_without_facts(cond.children.front(), !wanted);
+      case Cond::Op::kAnd:
+      case Cond::Op::kOr: return (cond.op == Cond::Op::kAnd) == wanted ? std::ranges::all_of(cond.children, part_holds) : std::ranges::any_of(cond.children, part_holds);
+      case Cond::Op::kFor: return cond.duration_us > 0 ? !wanted : part_holds(cond.children.front());   // none has run out
+      case Cond::Op::kIs: {
+        const bool is = (region_of(program_[cond.cell].initial, static_cast<float>(program_.settings.firing)) & regions_of(cond.term)) != 0;
+        return program_[cond.cell].kind != program::CellKind::kFact && is == wanted;
+      }
+      default: return false;   // about sightings
+    }
+  }
+
   /// Whether the rule is clearly meant for the start: it gives an exclusive group that has no member high its first one, or takes back a satellite that
-  /// was declared to begin high.
+  /// was declared to begin high, and asks nothing of facts.
   [[nodiscard]] bool begins(const Rule& rule) {
+    if (!holds_without_facts(rule.condition, true)) return false;
     const auto firing = static_cast<float>(program_.settings.firing);
     const Demands demands = narrow_satisfier_.demands(rule.condition, rule.level);
     const auto asks = [&](program::CellId cell, bool high) {
@@ -238,7 +256,7 @@ class ConditionQuestions {
     };
     return std::ranges::any_of(rule.writes, [&](const program::Write& write) {
       const std::uint32_t group = subject_.group_of[program::index(write.cell)];
-      if (write.value < firing) return program_[write.cell].initial >= firing && asks(write.cell, true);
+      if (write.value < firing) return group == program::kNoGroup && program_[write.cell].initial >= firing && asks(write.cell, true);
       return group != program::kNoGroup && std::ranges::all_of(program_.exclusive[group], [&](program::CellId cell) { return asks(cell, false); });
     });
   }
