@@ -1,9 +1,11 @@
 // Reports rules that change nothing, because all that they write is so already.
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
+#include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
 namespace {
@@ -35,12 +37,23 @@ class AlreadySo {
  public:
   explicit AlreadySo(const Subject& subject)
       : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), exclusive_(exclusive_at_all_times(program_)),
-        values_(values_of_cells(program_)), satisfier_(program_, subject.domains, subject.confusions.get()) {}
+        values_(values_of_cells(program_)), writers_(program_.cells.size()), clearers_(program_.exclusive.size()), satisfier_(program_, subject.domains, subject.confusions.get()) {
+    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
+      const Rule& rule = program_.rules[i];
+      for (const program::Write& write : rule.writes) writers_[program::index(write.cell)].push_back(RuleId{i});
+      for (const std::uint32_t group : rule.clears) clearers_[group].push_back(RuleId{i});
+    }
+  }
 
   void run() {
     ByFamily<bool> found(subject_);
+    std::vector<bool> settled(subject_.instances.size(), false);   // by family: an instance is not so, and none is reported
     for (std::uint32_t i = 0; i < program_.rules.size() && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {
-      if (changes_nothing(program_.rules[i])) found.add(RuleId{i}, true);
+      const std::uint32_t family = subject_.family[i];
+      if (settled[family]) continue;
+      const Rule& rule = program_.rules[i];
+      if (changes_nothing(rule) && !meets_another_value(rule)) found.add(RuleId{i}, true);
+      else settled[family] = true;
     }
     found.for_each([&](RuleId id, bool, std::uint32_t count) {
       if (count < subject_.instances[subject_.family[program::index(id)]]) return;
@@ -70,11 +83,44 @@ class AlreadySo {
            std::ranges::any_of(rule.writes, [&](const program::Write& write) { return write.value >= firing_ && subject_.group_of[program::index(write.cell)] == group; });
   }
 
+  /// Whether another rule of the level can fire with it and write otherwise, so that the rule has a say in what comes of it. A `reset` silences the rule.
+  [[nodiscard]] bool meets_another_value(const Rule& rule) {
+    return std::ranges::any_of(rule.writes, [&](const program::Write& write) { return differs(writers_[program::index(write.cell)], rule, write); }) ||
+           std::ranges::any_of(rule.clears, [&](std::uint32_t group) { return raised_beside(rule, group); });
+  }
+
+  [[nodiscard]] bool differs(const std::vector<RuleId>& others, const Rule& rule, const program::Write& write) {
+    return std::ranges::any_of(of_level(others, rule.level), [&](RuleId id) {
+      const auto value = program::net_value(program_, subject_.group_of, program_[id], write.cell);
+      return value && *value != write.value && may_meet(rule, id);
+    });
+  }
+
+  /// Whether another rule raises another member of a group that the rule clears.
+  [[nodiscard]] bool raised_beside(const Rule& rule, std::uint32_t group) {
+    return std::ranges::any_of(of_level(clearers_[group], rule.level), [&](RuleId id) {
+      return (program_[id].clears != rule.clears || program_[id].writes != rule.writes) && may_meet(rule, id);
+    });
+  }
+
+  [[nodiscard]] bool may_meet(const Rule& rule, RuleId other) {
+    const Goal goals[] = {{rule.condition, true}, {program_[other].condition, true}};
+    return !program_[other].reset && satisfier_.together(goals, rule.level) != Answer::kNo;
+  }
+
+  /// Those of the rules, which are ordered by level, that are of one.
+  [[nodiscard]] std::span<const RuleId> of_level(const std::vector<RuleId>& rules, std::uint32_t level) const {
+    const auto same = std::ranges::equal_range(rules, level, {}, [this](RuleId id) { return program_[id].level; });
+    return {same.begin(), same.end()};
+  }
+
   const Subject& subject_;
   const Program& program_;
   float firing_;
   std::vector<bool> exclusive_;              // by group: at all times
   std::vector<std::vector<float>> values_;   // by cell
+  std::vector<std::vector<RuleId>> writers_;    // by cell: the rules that name it
+  std::vector<std::vector<RuleId>> clearers_;   // by group
   Satisfier satisfier_;
 };
 
