@@ -1,7 +1,9 @@
 // Reports rules that lose what they wait for to a `reset` of their own level or one above, and resets that last.
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "compiler/analysis/satisfier.h"
@@ -30,8 +32,7 @@ class SilencedQuestions {
   explicit SilencedQuestions(const Subject& subject)
       : subject_(subject), program_(subject.program), satisfier_(subject.program, subject.domains, subject.confusions.get()) {}
 
-  void run() {
-    find_lasting();
+  void find_losses() {
     find_resets();
     if (resets_.empty()) return;
     ByFamily<Loss> found(subject_);
@@ -49,37 +50,67 @@ class SilencedQuestions {
     });
   }
 
- private:
   /// Reports `while` rules that reset on a level where another rule waits for the same fact, or writes what is kept: for as long as such a rule fires
   /// the other one does not. What the `reset` also takes a satellite from is left to the message about that.
   void find_lasting() {
     ByFamily<RuleId> found(subject_);
+    bool known = false;
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
       const Rule& rule = program_.rules[i];
       if (!rule.reset || rule.mode != program::Mode::kWhile || Subject::generated(rule)) continue;
       const Demands demands = satisfier_.demands(rule.condition, rule.level);
       if (undone(subject_, demands, rule)) continue;   // it resets once
+      if (!known) find_waiting();
+      known = true;
       if (const RuleId other = silenced_by(rule, awaited(demands)); other != RuleId::kNone) found.add(RuleId{i}, other);
     }
     found.for_each([&](RuleId id, RuleId other, std::uint32_t count) {
       const Rule& rule = program_[id];
-      subject_.diagnostics.report(Kind::kSilencesLevel, rule.span, {rule.name, program_.levels[rule.level], program_[other].name, more(count)});
+      const bool lasting = lasts(satisfier_.demands(rule.condition, rule.level));
+      subject_.diagnostics.report(Kind::kSilencesLevel, rule.span, {rule.name, program_.levels[rule.level], program_[other].name, more(count),
+                                                                    lasting ? "`when` resets once, and " : ""});
     });
   }
 
-  [[nodiscard]] RuleId silenced_by(const Rule& reset, const std::vector<std::size_t>& facts) {
-    const auto [begin, end] = program::rules_of(program_, reset.level);
-    for (std::uint32_t i = begin; i < end && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {
+ private:
+  using Place = std::pair<std::uint32_t, std::size_t>;   // a level, and a fact or kKept
+  static constexpr std::size_t kKept = static_cast<std::size_t>(-1);
+
+  /// Whether a condition that demands this can hold on two ticks in a row.
+  [[nodiscard]] bool lasts(const Demands& demands) const {
+    return std::ranges::none_of(demands.each, [this](const Restriction& demand) {
+      const bool sighting = demand.variable >= program_.cells.size() && demand.variable < program_.cells.size() + program_.facts;
+      return sighting && (demand.allowed == kJustSeen || demand.allowed == kJustLost);
+    });
+  }
+
+  void find_waiting() {
+    for (std::uint32_t i = 0; i < program_.rules.size() && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {
       const Rule& rule = program_.rules[i];
       if (rule.reset || Subject::generated(rule)) continue;
-      const Demands demands = satisfier_.demands(rule.condition, rule.level);
-      const std::vector<std::size_t> others = awaited(demands);
-      const bool shares = std::ranges::any_of(others, [&](std::size_t fact) { return std::ranges::find(facts, fact) != facts.end(); });
+      for (const std::size_t fact : awaited(satisfier_.demands(rule.condition, rule.level))) waiting_[{rule.level, fact}].push_back(RuleId{i});
       const bool keeps = std::ranges::any_of(rule.writes, [this](const program::Write& write) { return program_[write.cell].keep; });
-      const Goal goals[] = {{rule.condition, true}, {reset.condition, true}};
-      if ((shares || keeps) && demands.possible && !undone(subject_, demands, reset) && satisfier_.together(goals, reset.level) == Answer::kYes) return RuleId{i};
+      if (keeps) waiting_[{rule.level, kKept}].push_back(RuleId{i});
+    }
+  }
+
+  [[nodiscard]] RuleId silenced_by(const Rule& reset, std::vector<std::size_t> facts) {
+    facts.push_back(kKept);
+    for (const std::size_t fact : facts) {
+      const auto waiting = waiting_.find({reset.level, fact});
+      if (waiting == waiting_.end()) continue;
+      for (const RuleId id : waiting->second) {
+        if (satisfier_.steps() >= Satisfier::kTotalSteps) return RuleId::kNone;
+        if (fires_with(program_[id], reset)) return id;
+      }
     }
     return RuleId::kNone;
+  }
+
+  [[nodiscard]] bool fires_with(const Rule& rule, const Rule& reset) {
+    const Demands demands = satisfier_.demands(rule.condition, rule.level);
+    const Goal goals[] = {{rule.condition, true}, {reset.condition, true}};
+    return demands.possible && !undone(subject_, demands, reset) && satisfier_.together(goals, reset.level) == Answer::kYes;
   }
 
   void find_resets() {
@@ -135,12 +166,16 @@ class SilencedQuestions {
   const Subject& subject_;
   const Program& program_;
   Satisfier satisfier_;
+  std::map<Place, std::vector<RuleId>> waiting_;   // the rules that wait for the fact, or write what is kept
   std::uint32_t highest_ = UINT32_MAX;     // level of rules that reset
   std::unordered_map<std::size_t, std::vector<Alike>> resets_;   // by fact: the rules that reset and wait for it
 };
 
 }  // namespace
 
-void diagnose_silenced(const Subject& subject) { SilencedQuestions(subject).run(); }
+void diagnose_silenced(const Subject& subject) {
+  SilencedQuestions(subject).find_lasting();
+  SilencedQuestions(subject).find_losses();   // with a budget of its own
+}
 
 }  // namespace kb::analysis
