@@ -2,7 +2,8 @@
 //
 // note [unseen gaps]
 // A timer looks once a tick, when the rules of its level are evaluated. A satellite that is lowered at that level or below it, after the look,
-// and raised above it on the next tick, before the look, was high at every look. For each timer, each rule that could lower its satellite there
+// and raised above it on the next tick, before the look, was high at every look. So was one that is lowered and raised again on one tick, on two
+// levels with no look between them. For each timer, each rule that could lower its satellite there
 // and each that could raise it, what the satellites can be is followed from the one look to the next. A pair is left out as soon as one of the rules,
 // or the timer itself, asks for what cannot be. What other rules of the levels between could write counts as possible.
 #include <algorithm>
@@ -220,7 +221,7 @@ class GapQuestions {
     for (const bool library : {false, true}) {   // the user's first, should there be too many
       for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
         const Rule& rule = program_.rules[i];
-        if (rule.standard != library || Subject::generated(rule) || rule.level == 0) continue;
+        if (rule.standard != library || Subject::generated(rule)) continue;
         std::vector<bool>::reference told = told_[subject_.family[i]];
         if (told) continue;
         const auto gap = gap_of(rule);
@@ -253,27 +254,28 @@ class GapQuestions {
       const bool satellite = one.variable < program_.cells.size() && program_.cells[one.variable].kind == CellKind::kSatellite;
       if (!satellite || (one.allowed & ~kHighRegions) != 0) continue;
       const CellId cell{one.variable};
-      const std::vector<RuleId> raisers = that_write(cell, 0, level, true);
+      const std::vector<RuleId> raisers = that_write(cell, true);
       if (raisers.empty()) continue;
-      for (const RuleId lowers : that_write(cell, level, static_cast<std::uint32_t>(program_.levels.size()), false)) {
+      for (const RuleId lowers : that_write(cell, false)) {
         for (const RuleId raises : raisers) {
-          if (hidden && program_[lowers].standard && program_[raises].standard) continue;
+          ++common_.steps;
           if (common_.spent()) return std::nullopt;
-          if (possible({timed, program_[timer].children.front(), level, cell}, lowers, raises)) return Gap{timer, cell, lowers, raises};
+          const auto ticks = between_looks(level, program_[lowers].level, program_[raises].level);
+          if (!ticks || (hidden && is_of_library(lowers, raises, *ticks))) continue;
+          if (possible({timed, program_[timer].children.front(), level}, lowers, raises, *ticks)) return Gap{timer, cell, lowers, raises};
         }
       }
     }
     return std::nullopt;
   }
 
-  /// The rules of the levels from `first` to before `end` that leave the cell high, or not high.
-  [[nodiscard]] std::vector<RuleId> that_write(CellId cell, std::uint32_t first, std::uint32_t end, bool high) {
+  /// The rules that leave the cell high, or not high.
+  [[nodiscard]] std::vector<RuleId> that_write(CellId cell, bool high) {
     std::set<RuleId> all;
     const auto add = [&](const std::vector<RuleId>& rules) {
       for (const RuleId id : rules) {
         ++common_.steps;
         const Rule& rule = program_[id];
-        if (rule.level < first || rule.level >= end) continue;
         const auto value = program::net_value(program_, subject_.group_of, rule, cell);
         if (value && (*value >= firing_) == high) all.insert(id);
       }
@@ -288,37 +290,65 @@ class GapQuestions {
     const Demands& demands;
     CondId condition;
     std::uint32_t level;
-    CellId cell;
   };
 
-  /// Whether `lowers` can fire after the timer has looked, `raises` on the next tick before it looks again, and the timer find all that it asks for
+  /// On which tick a pair of rules makes a gap, counted from the first of two looks.
+  struct Ticks {
+    bool lowers_next, raises_next;
+  };
+
+  /// Nothing if a look lies between the rule that lowers and the one that raises.
+  [[nodiscard]] static std::optional<Ticks> between_looks(std::uint32_t look, std::uint32_t lowers, std::uint32_t raises) {
+    if (lowers >= look && raises < look) return Ticks{false, true};
+    if (lowers < raises && (lowers >= look) == (raises >= look)) return Ticks{lowers < look, raises < look};
+    return std::nullopt;
+  }
+
+  /// Whether nothing is left to the user where the timer is the library's: both rules are, or only what the library raises on the same tick
+  /// hides that a rule of the user lowers it.
+  [[nodiscard]] bool is_of_library(RuleId lowers, RuleId raises, Ticks ticks) const {
+    return program_[raises].standard && (program_[lowers].standard || ticks.lowers_next == ticks.raises_next);
+  }
+
+  /// Whether `lowers` can fire after the timer has looked, `raises` after that and before it looks again, and the timer find all that it asks for
   /// at both looks.
-  [[nodiscard]] bool possible(const Timed& timed, RuleId lowers, RuleId raises) {
+  [[nodiscard]] bool possible(const Timed& timed, RuleId lowers, RuleId raises, Ticks ticks) {
     const Rule& down = program_[lowers];
     const Rule& up = program_[raises];
     State state(common_);
-    if (!state.demand(timed.demands, timed.condition)) return false;
-    state.pass(timed.level, down.level);
+    if (!state.demand(timed.demands, timed.condition) || !times_in(state, raises)) return false;
+    std::uint32_t at = timed.level;
+    if (ticks.lowers_next) at = end_tick(state, at);
+    state.pass(at, down.level);
     if (!state.demand(common_.demands_of(lowers), down.condition)) return false;
+    if (ticks.raises_next && !ticks.lowers_next && !times_in(state, raises)) return false;
     state.fire(lowers);
-    state.pass(down.level + 1, static_cast<std::uint32_t>(program_.levels.size()));
-    state.next_tick();
-    state.pass(0, up.level);
-    if (!state.demand(common_.demands_of(raises), up.condition) || waits(common_.demands_of(raises), timed.cell)) return false;
+    at = down.level + 1;
+    if (ticks.raises_next && !ticks.lowers_next) at = end_tick(state, at);
+    state.pass(at, up.level);
+    if (!state.demand(common_.demands_of(raises), up.condition)) return false;
     state.fire(raises);
-    state.pass(up.level + 1, timed.level);
+    at = up.level + 1;
+    if (!ticks.raises_next) at = end_tick(state, at);
+    state.pass(at, timed.level);
     return state.demand(timed.demands, timed.condition);
   }
 
-  /// Whether a timer among the demands asks that the cell has not been high for a while.
-  [[nodiscard]] bool waits(const Demands& demands, CellId cell) {
+  /// The level at which the state is then.
+  [[nodiscard]] std::uint32_t end_tick(State& state, std::uint32_t at) const {
+    state.pass(at, static_cast<std::uint32_t>(program_.levels.size()));
+    state.next_tick();
+    return 0;
+  }
+
+  /// Whether what the timers time that a rule demands may be so. On the tick before the rule fires it has to.
+  [[nodiscard]] bool times_in(const State& state, RuleId rule) {
     const std::size_t timers = program_.cells.size() + program_.facts;
-    return std::ranges::any_of(demands.each, [&](const Restriction& one) {
-      if (one.variable < timers || one.allowed != Satisfier::kTimerTrue) return false;
+    return std::ranges::all_of(common_.demands_of(rule).each, [&](const Restriction& one) {
+      if (one.variable < timers || one.allowed != Satisfier::kTimerTrue) return true;
       const Cond& cond = program_.conds[one.variable - timers];
-      if (cond.duration_us == 0) return false;
-      const std::vector<Restriction> each = common_.satisfier.demands(cond.children.front(), 0).each;
-      return std::ranges::any_of(each, [&](const Restriction& part) { return part.variable == program::index(cell) && (part.allowed & kHighRegions) == 0; });
+      const CondId part = cond.children.front();
+      return cond.duration_us == 0 || State(state).demand(common_.satisfier.demands(part, program_[rule].level), part);
     });
   }
 
