@@ -1,10 +1,10 @@
 // Reports rules that change nothing, because all that they write is so already.
 #include <algorithm>
-#include <span>
 #include <vector>
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
+#include "compiler/analysis/writers.h"
 #include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
@@ -37,13 +37,7 @@ class AlreadySo {
  public:
   explicit AlreadySo(const Subject& subject)
       : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), exclusive_(exclusive_at_all_times(program_)),
-        values_(values_of_cells(program_)), writers_(program_.cells.size()), clearers_(program_.exclusive.size()), satisfier_(program_, subject.domains, subject.confusions.get()) {
-    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
-      const Rule& rule = program_.rules[i];
-      for (const program::Write& write : rule.writes) writers_[program::index(write.cell)].push_back(RuleId{i});
-      for (const std::uint32_t group : rule.clears) clearers_[group].push_back(RuleId{i});
-    }
-  }
+        values_(values_of_cells(program_)), writers_(program_), satisfier_(program_, subject.domains, subject.confusions.get()) {}
 
   void run() {
     ByFamily<bool> found(subject_);
@@ -85,12 +79,12 @@ class AlreadySo {
 
   /// Whether another rule of the level can fire with it and write otherwise, so that the rule has a say in what comes of it. A `reset` silences the rule.
   [[nodiscard]] bool meets_another_value(const Rule& rule) {
-    return std::ranges::any_of(rule.writes, [&](const program::Write& write) { return differs(writers_[program::index(write.cell)], rule, write); }) ||
+    return std::ranges::any_of(rule.writes, [&](const program::Write& write) { return differs(writers_.by_name[program::index(write.cell)], rule, write); }) ||
            std::ranges::any_of(rule.clears, [&](std::uint32_t group) { return raised_beside(rule, group); });
   }
 
   [[nodiscard]] bool differs(const std::vector<RuleId>& others, const Rule& rule, const program::Write& write) {
-    return std::ranges::any_of(of_level(others, rule.level), [&](RuleId id) {
+    return std::ranges::any_of(of_level(program_, others, rule.level), [&](RuleId id) {
       const auto value = program::net_value(program_, subject_.group_of, program_[id], write.cell);
       return value && *value != write.value && may_meet(rule, id);
     });
@@ -98,7 +92,7 @@ class AlreadySo {
 
   /// Whether another rule raises another member of a group that the rule clears.
   [[nodiscard]] bool raised_beside(const Rule& rule, std::uint32_t group) {
-    return std::ranges::any_of(of_level(clearers_[group], rule.level), [&](RuleId id) {
+    return std::ranges::any_of(of_level(program_, writers_.by_clear[group], rule.level), [&](RuleId id) {
       return (program_[id].clears != rule.clears || program_[id].writes != rule.writes) && may_meet(rule, id);
     });
   }
@@ -108,19 +102,12 @@ class AlreadySo {
     return !program_[other].reset && satisfier_.together(goals, rule.level) != Answer::kNo;
   }
 
-  /// Those of the rules, which are ordered by level, that are of one.
-  [[nodiscard]] std::span<const RuleId> of_level(const std::vector<RuleId>& rules, std::uint32_t level) const {
-    const auto same = std::ranges::equal_range(rules, level, {}, [this](RuleId id) { return program_[id].level; });
-    return {same.begin(), same.end()};
-  }
-
   const Subject& subject_;
   const Program& program_;
   float firing_;
   std::vector<bool> exclusive_;              // by group: at all times
   std::vector<std::vector<float>> values_;   // by cell
-  std::vector<std::vector<RuleId>> writers_;    // by cell: the rules that name it
-  std::vector<std::vector<RuleId>> clearers_;   // by group
+  Writers writers_;
   Satisfier satisfier_;
 };
 

@@ -16,6 +16,7 @@
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
+#include "compiler/analysis/writers.h"
 #include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 
@@ -33,20 +34,6 @@ using program::RuleId;
 
 constexpr std::uint64_t kMostGapSteps = 1'000'000;
 constexpr Regions kHighRegions = kRegionHigh | kRegionHighZero;
-
-/// The rules that may write a cell.
-struct Writers {
-  explicit Writers(const Program& program) : by_name(program.cells.size()), by_clear(program.exclusive.size()) {
-    for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
-      const Rule& rule = program.rules[i];
-      for (const program::Write& write : rule.writes) by_name[program::index(write.cell)].push_back(RuleId{i});
-      for (const std::uint32_t group : rule.clears) by_clear[group].push_back(RuleId{i});
-      if (rule.reset) by_reset.push_back(RuleId{i});
-    }
-  }
-  std::vector<std::vector<RuleId>> by_name, by_clear;
-  std::vector<RuleId> by_reset;
-};
 
 /// A timer at its level, the satellite that it needs high, and the rules that lower and raise that between two looks.
 struct Gap {
@@ -187,13 +174,12 @@ class State {
   }
 
   [[nodiscard]] Regions written_by(const std::vector<RuleId>& rules, std::uint32_t level, std::uint32_t variable, RuleId except) const {
-    const auto above = [this](RuleId rule, std::uint32_t limit) { return program_[rule].level < limit; };   // rules are ordered by level
     Regions regions = 0;
-    for (auto at = std::lower_bound(rules.begin(), rules.end(), level, above); at != rules.end() && program_[*at].level == level; ++at) {
+    for (const RuleId id : of_level(program_, rules, level)) {
       ++common_.steps;
-      if (*at == except || common_.spent()) continue;
-      const auto value = program::net_value(program_, common_.subject.group_of, program_[*at], CellId{variable});
-      if (value && (regions & region_of(*value, firing())) == 0 && goes_with(common_.demands_of(*at))) regions |= region_of(*value, firing());
+      if (id == except || common_.spent()) continue;
+      const auto value = program::net_value(program_, common_.subject.group_of, program_[id], CellId{variable});
+      if (value && (regions & region_of(*value, firing())) == 0 && goes_with(common_.demands_of(id))) regions |= region_of(*value, firing());
     }
     return regions;
   }

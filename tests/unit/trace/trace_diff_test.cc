@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "compiler/program/tick.h"
+
 namespace kb::trace {
 namespace {
 
@@ -26,6 +28,18 @@ TEST(CompareTicks, says_every_difference_in_words) {
       (Sentences{"runs nothing, expected `Move`", "`a` did not fire, which was expected",
                  "`c` fired, which was not expected", "`X` was set to -1, expected 1", "`Y` was not set, expected 1",
                  "`Z` was set to 0.5, which was not expected"}));
+}
+
+TEST(TraceKeys, are_those_of_a_tick_that_is_written) {
+  program::Program program;
+  program.cells.emplace_back().name = "F";
+  program.facts = 1;
+  program::Tick tick;
+  tick.perceived.push_back({program::CellId{0}, 1.0f});
+  std::vector<std::string_view> all(kTraceKeys.begin(), kTraceKeys.end());
+  const std::string line = print_json(program, tick);
+  EXPECT_EQ(with_keys(line, all), line);
+  EXPECT_EQ(with_keys(line, {"cf"}), R"({"tick":0,"t":0,"cf":{"F":1}})");
 }
 
 TEST(CompareTicks, tells_a_changed_order_from_changed_rules) {

@@ -1,19 +1,19 @@
 #include "tools/kbc/trace/facts_options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
 
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/source/encoding.h"
+#include "tools/kbc/trace/trace_diff.h"
 
 namespace kb::trace {
 namespace {
-
-/// What a tick of a trace has besides its number and time.
-constexpr std::array<std::string_view, 8> kTraceKeys{"strategy", "status", "events", "lost", "fired", "set", "conflicts", "cf"};
 
 bool is_given(std::string_view key, const FactsOptions& options) {
   if (key == "compare") return !options.compare.empty();
@@ -47,7 +47,8 @@ void take(std::string_view key, std::string_view value, FactsOptions& options, O
     item.good = value == "as before" || value == "no data";
   } else if (key == "compare") {
     options.compare = trace_keys(value);
-    item.wanted = "made of `strategy status events lost fired set conflicts cf`";
+    static const std::string kWanted = fmt::format("made of `{}`", fmt::join(kTraceKeys, " "));
+    item.wanted = kWanted;
     item.good = !options.compare.empty();
   } else {
     std::optional<std::uint32_t>& time = key == "dt" ? options.dt_us : options.every_us;

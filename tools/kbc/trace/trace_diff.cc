@@ -110,14 +110,14 @@ std::vector<std::string> compare_ticks(std::string_view expected_line, std::stri
   if (expected_line == actual_line) return out;
   const json expected = parse(expected_line), actual = parse(actual_line);
   if (!expected.is_object() || !actual.is_object()) return {"one of the lines is not a tick"};
-  // The most important comes first: what ran, then why.
-  static constexpr std::array order{"tick", "t", "strategy", "status", "events", "lost", "fired", "set", "conflicts"};
+  std::vector<std::string> order{"tick", "t"};
+  order.insert(order.end(), kTraceKeys.begin(), kTraceKeys.end());
   const json none;
   const auto at = [&](const json& tick, const std::string& key) -> const json& {
     const auto found = tick.find(key);
     return found == tick.end() ? none : *found;
   };
-  for (const char* key : order) compare_key(key, at(expected, key), at(actual, key), out);
+  for (const std::string& key : order) compare_key(key, at(expected, key), at(actual, key), out);
   const auto others = [&](const json& tick, bool both) {
     for (const auto& [key, value] : tick.items()) {
       if (std::find(order.begin(), order.end(), key) == order.end() && (both || !expected.contains(key)))

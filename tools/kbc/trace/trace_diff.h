@@ -4,6 +4,7 @@
 // do not matter; the order of events and of fired rules does.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -12,6 +13,9 @@
 #include <vector>
 
 namespace kb::trace {
+
+/// What a tick of a trace has besides `tick` and `t`; the most important first: what ran, then why.
+inline constexpr std::array<std::string_view, 8> kTraceKeys{"strategy", "status", "events", "lost", "fired", "set", "conflicts", "cf"};
 
 /// How two ticks (lines of JSON) differ, one sentence each; empty if they say the same. Both must be JSON objects.
 [[nodiscard]] std::vector<std::string> compare_ticks(std::string_view expected, std::string_view actual);

@@ -1,0 +1,33 @@
+// Which rules may write a cell, for analyses that ask it of many cells.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "compiler/program/program.h"
+
+namespace kb::analysis {
+
+/// Lists of rules, each ascending and so by level. Built in O(writes).
+struct Writers {
+  explicit Writers(const program::Program& program) : by_name(program.cells.size()), by_clear(program.exclusive.size()) {
+    for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
+      const program::Rule& rule = program.rules[i];
+      for (const program::Write& write : rule.writes) by_name[program::index(write.cell)].push_back(program::RuleId{i});
+      for (const std::uint32_t group : rule.clears) by_clear[group].push_back(program::RuleId{i});
+      if (rule.reset) by_reset.push_back(program::RuleId{i});
+    }
+  }
+
+  std::vector<std::vector<program::RuleId>> by_name, by_clear;   ///< by cell; by exclusive group
+  std::vector<program::RuleId> by_reset;
+};
+
+/// Those of such a list that are of one level.
+[[nodiscard]] inline std::span<const program::RuleId> of_level(const program::Program& program, const std::vector<program::RuleId>& rules, std::uint32_t level) {
+  const auto same = std::ranges::equal_range(rules, level, {}, [&](program::RuleId id) { return program[id].level; });
+  return {same.begin(), same.end()};
+}
+
+}  // namespace kb::analysis
