@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,10 @@ struct Writers {
 
 /// Those of such a list that are of one level.
 [[nodiscard]] inline std::span<const program::RuleId> of_level(const program::Program& program, const std::vector<program::RuleId>& rules, std::uint32_t level) {
-  const auto same = std::ranges::equal_range(rules, level, {}, [&](program::RuleId id) { return program[id].level; });
-  return {same.begin(), same.end()};
+  const auto first_from = [&](std::uint32_t from) {
+    return std::lower_bound(rules.begin(), rules.end(), from, [&](program::RuleId id, std::uint32_t limit) { return program[id].level < limit; });
+  };
+  return {first_from(level), first_from(level + 1)};
 }
 
 }  // namespace kb::analysis
