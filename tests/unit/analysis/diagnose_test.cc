@@ -1,6 +1,7 @@
 // The questions to the whole knowledge base, asked of small ones in the language itself.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -77,9 +78,9 @@ TEST(Diagnose, TellsTheLibrarysOwnOnRequest) {
   const Strings said = messages(said_of("import \"route1.kb\"", true));
   EXPECT_FALSE(said.empty());
   for (const std::string& message : said) {
-    // `Wary` of std.obstacle is raised by std.hall, which is not imported here.
-    EXPECT_TRUE(message.find("set_out") != std::string::npos || message.find("control") != std::string::npos || message.find("`Wary`") != std::string::npos)
-        << message;
+    // `Wary` of std.obstacle is raised by std.hall, which is not imported here. Three timers run on if a road or a mission ends and the next begins on one tick.
+    const auto known = {"set_out", "control", "`Wary`", "rule `drive_as_seen[mark]` may run on", "rule `look_round` may run on", "rule `report_no_track` may run on"};
+    EXPECT_TRUE(std::ranges::any_of(known, [&](const char* words) { return message.find(words) != std::string::npos; })) << message;
   }
 }
 
