@@ -8,6 +8,7 @@
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
 #include "compiler/program/conditions.h"
+#include "compiler/program/hash.h"
 #include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
@@ -212,7 +213,7 @@ void diagnose_lowered_in_vain(Subject& subject) {
 struct HashOfRule {
   std::size_t operator()(const Rule* rule) const {
     std::uint64_t hash = 0;
-    const auto add = [&](std::uint64_t part) { hash = (hash ^ part) * 0x9E3779B97F4A7C15u, hash ^= hash >> 32; };
+    const auto add = [&](std::uint64_t part) { hash = program::mix(hash, part); };
     add(program::index(rule->condition));
     add(std::uint64_t{rule->level} << 2 | (rule->mode == program::Mode::kWhile ? 2u : 0u) | (rule->reset ? 1u : 0u));
     for (const program::Write& write : rule->writes) add(program::index(write.cell)), add(std::bit_cast<std::uint32_t>(write.value));

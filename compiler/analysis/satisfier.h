@@ -65,6 +65,8 @@ class Satisfier {
   /// What a condition demands, as far as that is known without trying alternatives. What an `and` or `or` of more than `most_parts` demands
   /// is left out.
   [[nodiscard]] Demands demands(program::CondId condition, std::uint32_t level, std::size_t most_parts = kAllParts);
+  /// Whether what is demanded holds on no two ticks in a row: that something comes into view or goes out of it.
+  [[nodiscard]] bool is_moment(std::span<const Restriction> demanded) const;
   /// Whether the condition is a `for` over something that never holds on two ticks in a row, so that the `for` never holds.
   [[nodiscard]] bool is_timed_event(program::CondId condition) const;
   /// Steps taken so far by all questions together; once this exceeds `kTotalSteps` every answer is kUnknown.
@@ -129,6 +131,7 @@ class Satisfier {
   [[nodiscard]] bool exhausted() const { return steps_ >= limit_; }
   void undo(std::size_t trail, std::size_t open);
   [[nodiscard]] std::uint32_t sighting_of(program::CellId fact) const;
+  [[nodiscard]] bool is_sighting(std::uint32_t variable) const { return variable >= program_.cells.size() && variable < program_.cells.size() + program_.facts; }
   [[nodiscard]] std::uint32_t timer_of(program::CondId condition) const;
   /// The variable that a leaf (or `for`) asks about, and the values for which it is true.
   struct Question {

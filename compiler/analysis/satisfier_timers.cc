@@ -22,26 +22,27 @@ std::optional<Sightings> held_sighting(Sightings demanded) {
 /// Finds `for` conditions over events, which never hold, and what the others say of sightings. Parts have smaller numbers than the conditions
 /// that contain them, so what is found for a part is known when its whole is examined.
 void Satisfier::find_timed_events() {
-  const auto sightings = static_cast<std::uint32_t>(program_.cells.size());
   for (std::uint32_t i = 0; i < program_.conds.size(); ++i) {
     const Cond& cond = program_.conds[i];
     if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
     const std::vector<Restriction> each = demands(cond.children.front(), 0).each;
-    const auto is_sighting = [&](const Restriction& demand) { return demand.variable >= sightings && demand.variable < sightings + program_.facts; };
-    const bool moment = std::ranges::any_of(each, [&](const Restriction& demand) {
-      return is_sighting(demand) && (demand.allowed == kJustSeen || demand.allowed == kJustLost);
-    });
     begin(0);   // undoes the assumptions
-    if (moment) {
+    if (is_moment(each)) {
       timed_events_.push_back(CondId{i});
       values_[timer_of(CondId{i})] = kTimerFalse;
       continue;
     }
     for (const Restriction& demand : each) {
-      const auto held = is_sighting(demand) ? held_sighting(demand.allowed) : std::nullopt;
+      const auto held = is_sighting(demand.variable) ? held_sighting(demand.allowed) : std::nullopt;
       if (held) held_[CondId{i}].push_back({demand.variable, *held});
     }
   }
+}
+
+bool Satisfier::is_moment(std::span<const Restriction> demanded) const {
+  return std::ranges::any_of(demanded, [this](const Restriction& demand) {
+    return is_sighting(demand.variable) && (demand.allowed == kJustSeen || demand.allowed == kJustLost);
+  });
 }
 
 bool Satisfier::is_timed_event(CondId condition) const { return std::binary_search(timed_events_.begin(), timed_events_.end(), condition); }

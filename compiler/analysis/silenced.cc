@@ -66,7 +66,7 @@ class SilencedQuestions {
     }
     found.for_each([&](RuleId id, RuleId other, std::uint32_t count) {
       const Rule& rule = program_[id];
-      const bool lasting = lasts(satisfier_.demands(rule.condition, rule.level));
+      const bool lasting = !satisfier_.is_moment(satisfier_.demands(rule.condition, rule.level).each);
       subject_.diagnostics.report(Kind::kSilencesLevel, rule.span, {rule.name, program_.levels[rule.level], program_[other].name, more(count),
                                                                     lasting ? "`when` resets once, and " : ""});
     });
@@ -75,14 +75,6 @@ class SilencedQuestions {
  private:
   using Place = std::pair<std::uint32_t, std::size_t>;   // a level, and a fact or kKept
   static constexpr std::size_t kKept = static_cast<std::size_t>(-1);
-
-  /// Whether a condition that demands this can hold on two ticks in a row.
-  [[nodiscard]] bool lasts(const Demands& demands) const {
-    return std::ranges::none_of(demands.each, [this](const Restriction& demand) {
-      const bool sighting = demand.variable >= program_.cells.size() && demand.variable < program_.cells.size() + program_.facts;
-      return sighting && (demand.allowed == kJustSeen || demand.allowed == kJustLost);
-    });
-  }
 
   void find_waiting() {
     for (std::uint32_t i = 0; i < program_.rules.size() && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {

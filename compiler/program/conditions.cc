@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <bit>
 
+#include "compiler/program/hash.h"
+
 namespace kb::program {
 namespace {
 
 /// A larger `or` (`any Leg`) is not written out within other conditions: it is one node that all rules share.
 constexpr std::size_t kSmallOr = 32;
-
-std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
-  hash ^= value + 0x9E3779B97F4A7C15ull + (hash << 6) + (hash >> 2);
-  return hash * 0xFF51AFD7ED558CCDull;
-}
 
 std::uint32_t hash_of(const Cond& cond) {
   std::uint64_t hash = mix(static_cast<std::uint64_t>(cond.op), static_cast<std::uint64_t>(cond.term));

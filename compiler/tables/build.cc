@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "compiler/program/net_effects.h"
+#include "compiler/source/same_number.h"
 #include "compiler/tables/atoms.h"
 #include "compiler/tables/image.h"
 #include "compiler/tables/lists.h"
@@ -15,9 +16,8 @@ namespace {
 using program::CellKind;
 using program::Program;
 
-template <class A, class B>
-constexpr bool alike(A a, B b) { return static_cast<int>(a) == static_cast<int>(b); }
-static_assert(alike(program::Idle::kStop, mts::Idle::kStop) && alike(program::Idle::kHold, mts::Idle::kHold) && alike(program::Idle::kStrategy, mts::Idle::kStrategy));
+using source::same_number;
+static_assert(same_number(program::Idle::kStop, mts::Idle::kStop) && same_number(program::Idle::kHold, mts::Idle::kHold) && same_number(program::Idle::kStrategy, mts::Idle::kStrategy));
 
 constexpr int kCrowded = 4;   ///< added to an atom's rank (see `rarity`) if very many rules read it
 

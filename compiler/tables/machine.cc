@@ -6,6 +6,7 @@
 #include <waymark/runtime/engine.h>
 #include <waymark/runtime/swap.h>
 #include "compiler/program/net_effects.h"
+#include "compiler/source/same_number.h"
 #include "compiler/tables/image.h"
 #include "compiler/tables/tables.h"
 
@@ -26,11 +27,11 @@ struct Machine::Impl {
 
 namespace {
 
-constexpr bool same_status(program::Status a, mts::Status b) { return static_cast<int>(a) == static_cast<int>(b); }
-static_assert(same_status(program::Status::kOk, mts::Status::kOk) && same_status(program::Status::kNoStrategy, mts::Status::kNoStrategy) &&
-              same_status(program::Status::kHolding, mts::Status::kHolding) && same_status(program::Status::kHoldExpired, mts::Status::kHoldExpired) &&
-              same_status(program::Status::kBadFact, mts::Status::kBadFact) && same_status(program::Status::kConflict, mts::Status::kConflict) &&
-              same_status(program::Status::kTwoStrategies, mts::Status::kTwoStrategies));
+using source::same_number;
+static_assert(same_number(program::Status::kOk, mts::Status::kOk) && same_number(program::Status::kNoStrategy, mts::Status::kNoStrategy) &&
+              same_number(program::Status::kHolding, mts::Status::kHolding) && same_number(program::Status::kHoldExpired, mts::Status::kHoldExpired) &&
+              same_number(program::Status::kBadFact, mts::Status::kBadFact) && same_number(program::Status::kConflict, mts::Status::kConflict) &&
+              same_number(program::Status::kTwoStrategies, mts::Status::kTwoStrategies));
 
 template <class Id, class Index>
 std::vector<Id> sorted(const Index* list, std::uint32_t count) {

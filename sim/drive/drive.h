@@ -11,6 +11,7 @@
 
 #include "sim/drive/helm.h"
 #include "sim/drive/judge.h"
+#include "sim/drive/mind_names.h"
 #include "sim/mind/driver.h"
 #include "sim/recording.h"
 #include "sim/robot/sensors.h"
@@ -110,7 +111,7 @@ class Drive {
   bool abort_pressed_ = false, over_ = false;
   std::string last_landmark_;
   double began_s_ = 0.0, ended_s_ = 0.0, stands_s_ = 0.0, turned_at_s_ = 0.0, length_at_start_m_ = 0.0;
-  std::vector<float> recorded_;               // cells as the last frame has them
+  CellChanges recorded_{MindNames{}};
   std::vector<std::size_t> standing_;         // the recording's stays of the last frame: a moving thing makes a new one each time
   std::vector<std::string> notes_;
 };

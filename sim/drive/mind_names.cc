@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "compiler/source/same_number.h"
 #include "sim/mind/control_words.h"
 
 namespace kb::sim {
@@ -15,9 +16,9 @@ std::vector<std::uint32_t> numbers(const auto& ids) {
   return out;
 }
 
-constexpr bool alike(program::CellKind a, MindNames::Cell::Kind b) { return static_cast<int>(a) == static_cast<int>(b); }
-static_assert(alike(program::CellKind::kFact, MindNames::Cell::Kind::kFact) && alike(program::CellKind::kSatellite, MindNames::Cell::Kind::kSatellite) &&
-              alike(program::CellKind::kStrategy, MindNames::Cell::Kind::kStrategy));
+using source::same_number;
+static_assert(same_number(program::CellKind::kFact, MindNames::Cell::Kind::kFact) && same_number(program::CellKind::kSatellite, MindNames::Cell::Kind::kSatellite) &&
+              same_number(program::CellKind::kStrategy, MindNames::Cell::Kind::kStrategy));
 
 MindNames::Cell cell_of(const program::Cell& cell) {
   MindNames::Cell out;
@@ -68,6 +69,16 @@ MindNames names_of(const program::Program& program) {
   names.levels = program.levels;
   names.firing = static_cast<float>(program.settings.firing);
   return names;
+}
+
+CellChanges::CellChanges(const MindNames& names) {
+  for (const MindNames::Cell& cell : names.cells) values_.push_back(cell.initial);
+}
+
+void CellChanges::put(std::size_t cell, float value, Frame& frame) {
+  if (values_[cell] == value) return;
+  values_[cell] = value;
+  frame.changed.push_back({static_cast<std::uint32_t>(cell), value});
 }
 
 void tell(const program::Tick& tick, const program::Program& program, Frame& frame) {

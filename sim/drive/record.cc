@@ -35,7 +35,7 @@ void Drive::begin_recording() {
   if (!scenario_.title.empty()) recording.title = scenario_.title;
   recording.picture = picture_of(labyrinth_, arena_.radius_m());
   recording.names = options_.helm != nullptr ? strategies_of(*knowledge_.program) : names_of(*knowledge_.program);
-  for (const MindNames::Cell& cell : recording.names.cells) recorded_.push_back(cell.initial);
+  recorded_ = CellChanges(recording.names);
   for (const Leg& leg : knowledge_.legs) {
     recording.legs.push_back({leg.name, leg.from, leg.to, road_between(labyrinth_, leg), leg.detour});
   }
@@ -46,19 +46,15 @@ void Drive::record(const program::Tick& tick, const Judge::Belief& belief) {
   frame.t_s = time_s();
   frame.pose = arena_.pose();
   frame.senses = senses_;
-  const auto change = [&](std::size_t cell, float value) {
-    if (recorded_[cell] == value) return;
-    recorded_[cell] = value;
-    frame.changed.push_back({static_cast<std::uint32_t>(cell), value});
-  };
-  const std::size_t first_strategy = recorded_.size() - knowledge_.program->strategies, cells_before = knowledge_.program->cells.size() - recorded_.size();
+  const auto change = [&](std::size_t cell, float value) { recorded_.put(cell, value, frame); };
+  const std::size_t cells = recorded_.cells(), first_strategy = cells - knowledge_.program->strategies, cells_before = knowledge_.program->cells.size() - cells;
   if (belief.strategy != nullptr) frame.strategy = static_cast<std::int32_t>(program::index(belief.strategy->cell) - cells_before);
   if (options_.helm != nullptr) {
-    for (std::size_t s = 0; s < recorded_.size(); ++s) change(s, static_cast<std::int32_t>(s) == frame.strategy ? 1.0f : -1.0f);
+    for (std::size_t s = 0; s < cells; ++s) change(s, static_cast<std::int32_t>(s) == frame.strategy ? 1.0f : -1.0f);
   } else {
     for (std::size_t f = 0; f < driver_.mind().facts().size(); ++f) change(f, driver_.mind().facts()[f]);
     for (const program::CellValue& set : tick.set) change(program::index(set.cell), set.value);
-    for (std::size_t s = first_strategy; s < recorded_.size(); ++s) change(s, driver_.mind().value(static_cast<program::CellId>(s)));
+    for (std::size_t s = first_strategy; s < cells; ++s) change(s, driver_.mind().value(static_cast<program::CellId>(s)));
   }
   tell(tick, *knowledge_.program, frame);
   frame.status = !powered_ ? "off" : waits_ ? "waits" : options_.helm == nullptr ? program::status_text(tick.status) : options_.helm->gone() ? "gone" : "";

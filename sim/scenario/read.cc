@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "sim/scenario/names.h"
 #include "sim/scenario/plain.h"
@@ -190,29 +191,38 @@ double earliest_s(const Scenario& scenario, Action::Kind kind) {
   return earliest;
 }
 
+/// How the robot may leave the place where it is thought to be.
+struct Leaving {
+  explicit Leaving(const Scenario& scenario) : pressed_s(earliest_s(scenario, Action::Kind::kPress)), carried_s(earliest_s(scenario, Action::Kind::kKidnap)) {
+    for (const Event& event : scenario.events) {
+      if (event.action.kind == Action::Kind::kKidnap && event.when.kind == Trigger::Kind::kPlace) carried_on.insert(event.when.road);
+    }
+  }
+  double pressed_s, carried_s;   // the earliest moment
+  std::set<RoadId> carried_on;   // when it comes to a place on such a road
+};
+
 /// Where the robot is when an event happens, if that is certain: at its start before anything is pressed or the robot is carried off, or at
 /// the place that the event waits for, unless it may be carried off there.
-std::optional<Spot> robot_at(const Event& event, const Scenario& scenario, const Labyrinth& labyrinth) {
+std::optional<Spot> robot_at(const Event& event, const Leaving& leaves, const Scenario& scenario, const Labyrinth& labyrinth) {
   const Trigger& when = event.when;
   if (when.kind == Trigger::Kind::kTime) {
     const double at_s = when.time_s + when.delay_s;
-    const bool stands = at_s <= earliest_s(scenario, Action::Kind::kPress) && at_s < earliest_s(scenario, Action::Kind::kKidnap);
+    const bool stands = at_s <= leaves.pressed_s && at_s < leaves.carried_s;
     return stands ? std::optional(Spot{scenario.start.x_m, scenario.start.y_m}) : std::nullopt;
   }
   if (when.kind != Trigger::Kind::kPlace || when.delay_s > 0.0) return std::nullopt;
-  const bool carried = std::any_of(scenario.events.begin(), scenario.events.end(), [&](const Event& other) {
-    return other.action.kind == Action::Kind::kKidnap && other.when.kind == Trigger::Kind::kPlace && other.when.road == when.road;
-  });
-  if (carried) return std::nullopt;
+  if (leaves.carried_on.contains(when.road)) return std::nullopt;
   const Road& road = labyrinth[when.road];
   return point_on(road.along, road.begins_m + when.along_m).at;
 }
 
 bool check_obstacles(const Scenario& scenario, const Labyrinth& labyrinth, Diagnostics& diagnostics) {
+  const Leaving leaves(scenario);
   bool good = true;
   for (const Event& event : scenario.events) {
     if (event.action.kind != Action::Kind::kObstacle) continue;
-    const auto robot = robot_at(event, scenario, labyrinth);
+    const auto robot = robot_at(event, leaves, scenario, labyrinth);
     const double gap_m = robot ? distance(*robot, event.action.obstacle.at) - event.action.obstacle.radius_m - static_cast<double>(scenario.body.radius_m) : 0.0;
     if (gap_m >= 0.0) continue;
     diagnostics.report(Kind::kSimOnRobot, event.at, {event.action.obstacle.name, fmt::format("{:.2f}", -gap_m)});

@@ -25,6 +25,20 @@ def sim(*options):
     return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
+@contextlib.contextmanager
+def running(*options):
+    drive = sim(*options)
+    try:
+        yield drive
+    finally:
+        drive.kill()
+        drive.wait()
+
+
+def port_in(line):
+    return int(line.split(':')[2].split('/')[0])
+
+
 def ask(port, path, body=None):
     connection = http.client.HTTPConnection('127.0.0.1', port, timeout=30)
     headers = {'Content-Type': 'application/json'} if body else {}
@@ -65,9 +79,10 @@ def drip(connections, over):
 
 def beside_silent_connections():
     over = threading.Event()
-    drive = sim('--live', '0', '--speed', '0.01')
-    try:
-        port = int(drive.stderr.readline().split(':')[2].split('/')[0])
+    with contextlib.ExitStack() as stack:
+        stack.callback(over.set)
+        drive = stack.enter_context(running('--live', '0', '--speed', '0.01'))
+        port = port_in(drive.stderr.readline())
         held = [silent(port) for _ in range(100)]
         status, _ = ask(port, '/')
         expect(status == 200, f'the page is served beside {len(held)} connections that say nothing')
@@ -76,20 +91,15 @@ def beside_silent_connections():
         drive.send_signal(signal.SIGINT)
         drive.communicate(timeout=50)
         expect(drive.returncode == 130, 'Ctrl-C does not wait for connections that say a byte now and then')
-    finally:
-        over.set()
-        drive.kill()
-        drive.wait()
 
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
         page = pathlib.Path(folder) / 'drive.html'
-        drive = sim('--live', '0', '--speed', '40', '--html', str(page))
-        try:
+        with running('--live', '0', '--speed', '40', '--html', str(page)) as drive:
             line = drive.stderr.readline()
             expect(line.startswith('http://127.0.0.1:'), f'it says where the page is: {line.strip()}')
-            port = int(line.split(':')[2].split('/')[0])
+            port = port_in(line)
             status, text = ask(port, '/')
             expect(status == 200 and text.lower().startswith('<!doctype html>'), 'the page is served')
             status, _ = ask(port, '/live/command', {'what': 'close', 'name': 'LM7.E--LM13.N'})
@@ -107,18 +117,11 @@ def main():
             expect(drive.returncode == 0, 'Ctrl-C ends it in order')
             expect('arrived' in out and 'LM11' in out, 'it arrived by the way round')
             expect('road LM7.E--LM13.N closed' in page.read_text(), 'the drive was written, with what was done to it')
-        finally:
-            drive.kill()
-            drive.wait()
-    slow = sim('--live', '0', '--speed', '0.01', '--dt', '1s')   # a tick lasts 100 s
-    try:
+    with running('--live', '0', '--speed', '0.01', '--dt', '1s') as slow:   # a tick lasts 100 s
         slow.stderr.readline()
         slow.send_signal(signal.SIGINT)
         slow.communicate(timeout=50)
         expect(slow.returncode == 130, 'Ctrl-C does not wait for the next tick, and breaks off a drive that is not over')
-    finally:
-        slow.kill()
-        slow.wait()
     beside_silent_connections()
 
 

@@ -84,7 +84,8 @@ struct Counts {
 
 // Everything that takes the ticks of a run.
 struct Sinks {
-  std::array<trace::OutputFile, 2> files;   // for the trace and for the page; those that are not open are not written
+  enum File : std::size_t { kTrace, kPage, kFiles };
+  std::array<trace::OutputFile, kFiles> files;   // those that are not open are not written
   trace::OutputFile* trace = nullptr;
   std::optional<trace::Table> table;
   std::optional<RecordedPage> page;
@@ -104,12 +105,12 @@ bool open_sinks(const RunOptions& options, const program::Program& program, Sink
     if (!vain.empty()) return false;
   }
   if (!options.html.empty()) {
-    if (!session.open_output(sinks.files[1], options.html)) return false;
+    if (!session.open_output(sinks.files[Sinks::kPage], options.html)) return false;
     sinks.page.emplace(program, fmt::format("{} on {}", options.file, options.recorded.path()));
   }
   if ((options.table || sinks.page) && options.trace.empty()) return true;
   const std::string path = options.trace.empty() ? "-" : options.trace;
-  sinks.trace = &sinks.files[0];
+  sinks.trace = &sinks.files[Sinks::kTrace];
   return session.open_output(*sinks.trace, path);
 }
 
@@ -165,9 +166,9 @@ bool has_ticks(const RunOptions& options, const Sinks& sinks, const Counts& coun
 }
 
 bool close_sinks(const RunOptions& options, Sinks& sinks, const Counts& counts, Session& session, diagnostics::Diagnostics& diagnostics) {
-  if (sinks.page) sinks.files[1].write(sinks.page->html(counts.faults_text()));
+  if (sinks.page) sinks.files[Sinks::kPage].write(sinks.page->html(counts.faults_text()));
   if (const auto refused = trace::OutputFile::commit_all(sinks.files)) {
-    const std::string& path = *refused == 1 ? options.html : options.trace;
+    const std::string& path = *refused == Sinks::kPage ? options.html : options.trace;
     diagnostics.report(Kind::kCannotWrite, {}, {path.empty() || path == "-" ? "standard output" : path, sinks.files[*refused].error()});
     return false;
   }

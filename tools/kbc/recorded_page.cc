@@ -3,23 +3,12 @@
 #include <limits>
 #include <utility>
 
-#include "sim/drive/mind_names.h"
 #include "sim/report/report.h"
 
 namespace kb::cli {
 
-RecordedPage::RecordedPage(const program::Program& program, std::string title) : program_(program) {
-  recording_.title = std::move(title);
-  recording_.names = sim::names_of(program);
-  for (const sim::MindNames::Cell& cell : recording_.names.cells) values_.push_back(cell.initial);
-}
-
-void RecordedPage::put(program::CellId cell, float value, sim::Frame& frame) {
-  float& last = values_[program::index(cell)];
-  if (last == value) return;
-  last = value;
-  frame.changed.push_back({static_cast<std::uint32_t>(cell), value});
-}
+RecordedPage::RecordedPage(const program::Program& program, std::string title)
+    : program_(program), recording_{.title = std::move(title), .outcome = {}, .picture = {}, .names = sim::names_of(program), .frames = {}, .legs = {}, .stays = {}}, changes_(recording_.names) {}
 
 bool RecordedPage::add(const program::Tick& tick, const trace::Engine& engine) {
   constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
@@ -28,11 +17,11 @@ bool RecordedPage::add(const program::Tick& tick, const trace::Engine& engine) {
   frame.t_s = static_cast<double>(tick.time_us) / 1e6;
   frame.pose = {kNowhere, kNowhere, kNowhere};
   const auto ask = [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) put(static_cast<program::CellId>(i), engine.value(static_cast<program::CellId>(i)), frame);
+    for (std::size_t i = first; i < last; ++i) changes_.put(i, engine.value(static_cast<program::CellId>(i)), frame);
   };
   ask(0, program_.facts);
-  for (const program::CellValue& set : tick.set) put(set.cell, set.value, frame);
-  ask(values_.size() - program_.strategies, values_.size());
+  for (const program::CellValue& set : tick.set) changes_.put(program::index(set.cell), set.value, frame);
+  ask(changes_.cells() - program_.strategies, changes_.cells());
   if (tick.strategy != program::CellId::kNone) frame.strategy = static_cast<std::int32_t>(tick.strategy);
   frame.status = program::status_text(tick.status);
   sim::tell(tick, program_, frame);

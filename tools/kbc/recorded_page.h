@@ -3,10 +3,10 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "compiler/program/program.h"
 #include "compiler/program/tick.h"
+#include "sim/drive/mind_names.h"
 #include "sim/recording.h"
 #include "tools/kbc/trace/engine.h"
 
@@ -25,11 +25,9 @@ class RecordedPage {
   [[nodiscard]] std::string html(std::string outcome);
 
  private:
-  void put(program::CellId cell, float value, sim::Frame& frame);
-
   const program::Program& program_;
   sim::Recording recording_;
-  std::vector<float> values_;   // of all cells, as the last frame has them
+  sim::CellChanges changes_;
 };
 
 }  // namespace kb::cli
