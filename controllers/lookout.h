@@ -39,19 +39,33 @@ struct Sign {
   const char* cross_by = "mark";    ///< how the crossing can be driven: "mark azimuth"
 };
 
-/// No heap; memory as RoadWatch and 70 bytes. One object belongs to one thread at a time; it may be copied.
+/// The facts of a compiled knowledge base by their numbers, and its map. A program that knows its knowledge base only at run time gives Lookout
+/// a class like this of its own.
 template <class Knowledge>
-class Lookout {
- public:
+struct FactNames {
   using Facts = typename Knowledge::Facts;
-
+  using Fact = typename Knowledge::Fact;
   /// The road that leaves a landmark by one of its sides; null: there is none.
   using FindRoad = const MapRoad* (*)(const char* landmark, const char* exit);
 
+  [[nodiscard]] static constexpr std::uint32_t count() noexcept { return Knowledge::kShape.facts; }
+  /// Text that stays where it is.
+  [[nodiscard]] static const char* name_of(std::uint32_t fact) noexcept { return name(static_cast<Fact>(fact)); }
+  [[nodiscard]] static float get(const Facts& facts, std::uint32_t fact) noexcept { return facts.get(static_cast<Fact>(fact)); }
+  static void set(Facts& facts, std::uint32_t fact, float certainty) noexcept { facts.set(static_cast<Fact>(fact), certainty); }
+};
+
+/// No heap; memory as RoadWatch and 80 bytes. One object belongs to one thread at a time; it may be copied.
+template <class Knowledge, class Names = FactNames<Knowledge>>
+class Lookout {
+ public:
+  using Facts = typename Names::Facts;
+  using FindRoad = typename Names::FindRoad;
+
   /// `body`: the pilot's. `landmarks`: of the generated header of the map; only these can be read from signs. `find_road`: of the same header; null:
   /// the first crossing of a mission counts as one of roads at right angles. Looks up names: O(facts).
-  explicit Lookout(const Body& body, const FactRuns& landmarks, FindRoad find_road = nullptr) noexcept
-      : watch_(body, find("Carried") != kNone), landmarks_(landmarks), find_road_(find_road) {
+  explicit Lookout(const Body& body, const FactRuns& landmarks, FindRoad find_road = nullptr, Names names = {}) noexcept
+      : names_(names), watch_(body, find("Carried") != kNone), landmarks_(landmarks), find_road_(find_road) {
     for (std::size_t i = 0; i < kGroups; ++i) groups_[i] = find_group(kGroupNames[i]);
     for (std::size_t i = 0; i < kSingles; ++i) singles_[i] = find(kSingleNames[i]);
   }
@@ -61,7 +75,7 @@ class Lookout {
   void step(Pilot& pilot, const Sign& sign, float dt_s) noexcept {
     const SignRead* const read = take(sign);
     watch_.step(pilot, read, dt_s);
-    if (find_road_ != nullptr && approaches()) tell_arrival(pilot, watch_.sign().landmark, side_from());
+    if (find_road_ && approaches()) tell_arrival(pilot, watch_.sign().landmark, side_from());
   }
   /// Before each tick: writes the facts that the knowledge base has. Others keep their values.
   void write(Facts& facts) noexcept {
@@ -80,7 +94,6 @@ class Lookout {
   [[nodiscard]] const RoadWatch& watch() const noexcept { return watch_; }
 
  private:
-  using Fact = typename Knowledge::Fact;
   using Index = std::uint32_t;
   static constexpr Index kNone = 0xFFFFFFFFu;
   struct Group {
@@ -92,9 +105,9 @@ class Lookout {
   static constexpr const char* kGroupNames[kGroups] = {"Track", "MoveBy", "Blind", "In", "Closed", "CrossBy"};
   static constexpr const char* kSingleNames[kSingles] = {"Line", "Obst", "Touched", "Due", "Turned", "Carried", "Trapped", "NoWay", "Safe"};
 
-  [[nodiscard]] static const char* name_of(Index fact) noexcept { return name(static_cast<Fact>(fact)); }
-  [[nodiscard]] static Index find(const char* text) noexcept {
-    for (Index f = 0; f < Knowledge::kShape.facts; ++f) {
+  [[nodiscard]] const char* name_of(Index fact) const noexcept { return names_.name_of(fact); }
+  [[nodiscard]] Index find(const char* text) const noexcept {
+    for (Index f = 0; f < names_.count(); ++f) {
       if (same_text(name_of(f), text)) return f;
     }
     return kNone;
@@ -115,9 +128,9 @@ class Lookout {
     }
     return text[i] == '.' ? static_cast<std::uint8_t>(i + 1) : std::uint8_t{0};
   }
-  [[nodiscard]] static Group find_group(const char* group) noexcept {
+  [[nodiscard]] Group find_group(const char* group) const noexcept {
     Group found;
-    for (Index f = 0; f < Knowledge::kShape.facts; ++f) {
+    for (Index f = 0; f < names_.count(); ++f) {
       const std::uint8_t prefix = prefix_of(name_of(f), group);
       if (prefix == 0) continue;
       if (found.count == 0) found = {f, 0, prefix};
@@ -134,9 +147,9 @@ class Lookout {
     return "";
   }
 
-  static void put(Facts& facts, Index fact, float certainty) noexcept {
-    if (fact == kNone || facts.get(static_cast<Fact>(fact)) == certainty) return;   // what does not change costs the mind nothing
-    facts.set(static_cast<Fact>(fact), certainty);
+  void put(Facts& facts, Index fact, float certainty) const noexcept {
+    if (fact == kNone || names_.get(facts, fact) == certainty) return;   // what does not change costs the mind nothing
+    names_.set(facts, fact, certainty);
   }
   template <class Certainty>
   void write_group(Facts& facts, GroupId group, Certainty&& certainty) const noexcept {
@@ -222,6 +235,7 @@ class Lookout {
     return false;
   }
 
+  [[no_unique_address]] Names names_;
   RoadWatch watch_;
   FactRuns landmarks_;
   FindRoad find_road_;

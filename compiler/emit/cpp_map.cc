@@ -1,7 +1,6 @@
 // The roads that legs lead along, as data for controllers/road_map.h.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -16,8 +15,6 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 using model::GroundRoad;
-
-constexpr double kShortestPiece_m = 0.01;
 
 /// The rows of the tables.
 struct Rows {
@@ -43,15 +40,9 @@ std::optional<std::map<model::RowId, GroundRoad>> roads_of_legs(const model::Mod
 
 void add_road(const GroundRoad& road, Rows& rows) {
   const std::size_t first = rows.piece_count;
-  model::Point here = road.course.front();
-  for (std::size_t i = 1; i < road.course.size(); ++i) {
-    const model::Point there = road.course[i];
-    const double x = there.x - here.x, y = there.y - here.y, length_m = std::hypot(x, y);
-    const bool only = i + 1 == road.course.size() && rows.piece_count == first;
-    if (length_m < kShortestPiece_m && !only) continue;
-    fmt::format_to(Out(rows.pieces), "    {{{}, {}}},  // {}.{}\n", float_literal(static_cast<float>(std::atan2(y, x))), float_literal(static_cast<float>(length_m)), road.from, road.exit);
+  for (const model::GroundPiece& piece : model::pieces_of(road)) {
+    fmt::format_to(Out(rows.pieces), "    {{{}, {}}},  // {}.{}\n", float_literal(static_cast<float>(piece.heading_rad)), float_literal(static_cast<float>(piece.length_m)), road.from, road.exit);
     ++rows.piece_count;
-    here = there;
   }
   const std::string limit = road.limit_m_per_s > 0.0f ? float_literal(road.limit_m_per_s) : "mts::kInfinity";
   fmt::format_to(Out(rows.roads), "    {{\"{}\", \"{}\", \"{}\", \"{}\", \"{}\", {}, kMapPieces + {}, {}, {}, {}}},\n", road.from, road.exit, road.to, road.approach, road.by, limit, first,

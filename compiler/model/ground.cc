@@ -50,6 +50,21 @@ void tell_apart(std::vector<GroundRoad>& roads) {
 
 }  // namespace
 
+std::vector<GroundPiece> pieces_of(const GroundRoad& road, double metre) {
+  constexpr double kShortest_m = 0.01;
+  std::vector<GroundPiece> pieces;
+  Point here = road.course.front();
+  for (std::size_t i = 1; i < road.course.size(); ++i) {
+    const Point there = road.course[i];
+    const double length_m = metre * std::hypot(there.x - here.x, there.y - here.y);
+    const bool only = i + 1 == road.course.size() && pieces.empty();
+    if (length_m < kShortest_m && !only) continue;
+    pieces.push_back({direction(here, there), length_m});
+    here = there;
+  }
+  return pieces;
+}
+
 std::optional<std::vector<GroundRoad>> ground_roads(const Model& model, const Map& map) {
   std::vector<GroundRoad> roads;
   roads.reserve(map.roads.size());

@@ -20,6 +20,11 @@ struct GroundRoad {
   double begins_apart_rad = 0.0, ends_apart_rad = 0.0;   ///< where it begins and ends, the angle to the road beside it that is nearest, up to pi: none is
 };
 
+/// A straight stretch of a course.
+struct GroundPiece { double heading_rad = 0.0, length_m = 0.0; };
+/// The course without what is shorter than 1 cm, unless there is nothing else: at least one piece. A metre of the map is `metre` long.
+[[nodiscard]] std::vector<GroundPiece> pieces_of(const GroundRoad& road, double metre = 1.0);
+
 /// The roads of the map, in its order. Nothing if its relations are the user's own and do not say where things lie: landmarks need `at`,
 /// roads `from`, `to` and `exit`. O(n log n).
 [[nodiscard]] std::optional<std::vector<GroundRoad>> ground_roads(const Model& model, const Map& map);

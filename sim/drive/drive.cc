@@ -101,7 +101,8 @@ void Drive::follow_untold_mission() {
 /// Whether a mission that ends in this tick has ended as one does that has come to its goal: on its last leg, where the landmark is seen or,
 /// if its sign cannot be read, the end of the road (std.recover). If rules end it anywhere else, they give it up.
 bool Drive::claims_arrival() const {
-  const auto sees = [&](program::CellId fact) { return fact != program::CellId::kNone && driver_.mind().seen(fact); };
+  const Helm* helm = options_.helm;
+  const auto sees = [&](program::CellId fact) { return fact != program::CellId::kNone && (helm != nullptr ? helm->seen(fact) : driver_.mind().seen(fact)); };
   return last_leg_ == nullptr || (last_leg_->last && (sees(last_leg_->sight) || sees(knowledge_.find("Due"))));
 }
 
@@ -110,7 +111,7 @@ bool Drive::claims_arrival() const {
 Summary::Outcome Drive::mission_end() const {
   using Outcome = Summary::Outcome;
   if (abort_pressed_ || (options_.helm != nullptr && options_.helm->seen(knowledge_.find("Abort")))) return Outcome::kAborted;
-  if (options_.helm == nullptr && !claims_arrival()) return Outcome::kGivenUp;
+  if ((options_.helm == nullptr || options_.helm->sees()) && !claims_arrival()) return Outcome::kGivenUp;
   return is_there(last_landmark_) ? Outcome::kArrived : Outcome::kAstray;
 }
 
