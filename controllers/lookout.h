@@ -37,6 +37,7 @@ struct Sign {
   bool safe = true;                 ///< the crossing may be entered
   const char* closed = "";          ///< sides whose roads must not be taken: "E" or "E S"
   const char* cross_by = "mark";    ///< how the crossing can be driven: "mark azimuth"
+  bool reader = true;               ///< false: the reader itself is silent, so nothing is known
 };
 
 /// The facts of a compiled knowledge base by their numbers, and its map. A program that knows its knowledge base only at run time gives Lookout
@@ -70,11 +71,13 @@ class Lookout {
     for (std::size_t i = 0; i < kSingles; ++i) singles_[i] = find(kSingleNames[i]);
   }
 
-  /// Each period, after the pilot's `step`. A robot that was carried, or to which nothing was told for two seconds, has its pilot forget
+  /// Each period, after the pilot's `step`. `measured`: the darknesses were computed from a measured line, and may stay the same for metres although
+  /// the sensor works. A robot that was carried, or to which nothing was told for two seconds, has its pilot forget
   /// the place. O(range finders times pieces of the road); O(facts) where another sign is read.
-  void step(Pilot& pilot, const Sign& sign, float dt_s) noexcept {
+  void step(Pilot& pilot, const Sign& sign, float dt_s, bool measured = false) noexcept {
     const SignRead* const read = take(sign);
-    watch_.step(pilot, read, dt_s);
+    reader_ = sign.reader;
+    watch_.step(pilot, read, dt_s, measured);
     if (find_road_ && approaches()) tell_arrival(pilot, watch_.sign().landmark, side_from());
   }
   /// Before each tick: writes the facts that the knowledge base has. Others keep their values.
@@ -163,9 +166,16 @@ class Lookout {
   void write_sign(Facts& facts) noexcept {
     const SignRead& sign = watch_.sign();
     const Index landmark = watch_.landmark()[0] == '\0' ? kNone : sign.fact;
-    if (written_ != landmark) put(facts, written_, -RoadWatch::kSure);
+    const float nothing = reader_ ? -RoadWatch::kSure : 0.0f;
+    if (nothing_ != nothing) {
+      for (std::size_t i = 0; i < landmarks_.count; ++i) {
+        for (Index k = 0; k < landmarks_.runs[i].count; ++k) put(facts, landmarks_.runs[i].first + k, nothing);
+      }
+    } else if (written_ != landmark) {
+      put(facts, written_, nothing);
+    }
     put(facts, landmark, watch_.landmark_certainty());
-    written_ = landmark;
+    written_ = landmark, nothing_ = nothing;
     put(facts, singles_[kSafe], approaches() ? RoadWatch::sure(sign.safe) : 0.0f);
     const char* const in = side_from();
     write_group(facts, kIn, [&](const char* side) { return in[0] == '\0' ? 0.0f : RoadWatch::sure(same_text(side, in)); });
@@ -244,6 +254,8 @@ class Lookout {
   Index singles_[kSingles] = {};
   SignRead read_;
   Index written_ = kNone;   // the landmark
+  float nothing_ = 0.0f;    // what the others were told to be
+  bool reader_ = true;
 };
 
 }  // namespace mts

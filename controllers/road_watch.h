@@ -43,10 +43,10 @@ class RoadWatch {
 
   /// Each period, after the pilot's `step`. `sign`: what is read now; null: nothing. A robot that was carried, or that has rested for two
   /// seconds, has its pilot forget the place.
-  void step(Pilot& pilot, const SignRead* sign, float dt_s) noexcept {
+  void step(Pilot& pilot, const SignRead* sign, float dt_s, bool measured = false) noexcept {
     const float dt = sane_period(as_.in(dt_s, "s"));
     look_at_pilot(pilot);
-    hear_blindness(dt);
+    hear_blindness(measured, dt);
     if (pilot.line() != line_driven_) begin(pilot);
     since_m_ += way_m_;
     if (moves_) beside_m_ = greatest(beside_m_ - way_m_, 0.0f);
@@ -162,12 +162,12 @@ class RoadWatch {
   }
 
   /// A sensor that is stuck counts as silent. Without the range finders in front the robot drives blind.
-  void hear_blindness(float dt) noexcept {
+  void hear_blindness(bool measured, float dt) noexcept {
     bool any_near = false;
     for (const float range_m : senses_.range_m) any_near = any_near || range_m < kOutOfRange;
     front_unknown_ = !knows_range(senses_, 0) || !knows_range(senses_, 1) || !knows_range(senses_, kRangeFinders - 1);
     const float moved_m = way_m_ + body_.line_ahead_m * magnitude(turned_rad_);
-    line_alive_.step(senses_.line_known, senses_.line, true, moved_m, dt);
+    line_alive_.step(senses_.line_known, senses_.line, !measured, moved_m, dt);
     range_alive_.step(senses_.range_known, senses_.range_m, any_near, moved_m, dt);
     senses_.line_known = line_alive_.sees();
     senses_.range_known = range_alive_.sees();

@@ -27,7 +27,7 @@ Drive::Drive(const Labyrinth& labyrinth, const Knowledge& knowledge, const Scena
       floor_(labyrinth),
       wheels_(scenario.drive, scenario.seed),
       sensors_(scenario.sensors, scenario.seed, scenario.body),
-      driver_(knowledge, as_driven(scenario.body, scenario.sensors.range, scenario.drive)),
+      driver_(knowledge, labyrinth, as_driven(scenario.body, scenario.sensors.range, scenario.drive)),
       judge_(labyrinth),
       state_(scenario.events.size()) {
   for (const CrossingMethods& crossing : scenario.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
@@ -101,8 +101,7 @@ void Drive::follow_untold_mission() {
 /// Whether a mission that ends in this tick has ended as one does that has come to its goal: on its last leg, where the landmark is seen or,
 /// if its sign cannot be read, the end of the road (std.recover). If rules end it anywhere else, they give it up.
 bool Drive::claims_arrival() const {
-  const Helm* helm = options_.helm;
-  const auto sees = [&](program::CellId fact) { return fact != program::CellId::kNone && (helm != nullptr ? helm->seen(fact) : driver_.mind().seen(fact)); };
+  const auto sees = [&](program::CellId fact) { return fact != program::CellId::kNone && driver_.mind().seen(fact); };
   return last_leg_ == nullptr || (last_leg_->last && (sees(last_leg_->sight) || sees(knowledge_.find("Due"))));
 }
 
@@ -111,7 +110,7 @@ bool Drive::claims_arrival() const {
 Summary::Outcome Drive::mission_end() const {
   using Outcome = Summary::Outcome;
   if (abort_pressed_ || (options_.helm != nullptr && options_.helm->seen(knowledge_.find("Abort")))) return Outcome::kAborted;
-  if ((options_.helm == nullptr || options_.helm->sees()) && !claims_arrival()) return Outcome::kGivenUp;
+  if (options_.helm == nullptr && !claims_arrival()) return Outcome::kGivenUp;
   return is_there(last_landmark_) ? Outcome::kArrived : Outcome::kAstray;
 }
 

@@ -34,8 +34,6 @@ class Helm {
   /// Whether something that a scenario may wait for is so: the leg is current, the strategy runs, the fact is seen.
   [[nodiscard]] virtual bool high(program::CellId /*cell*/) const { return false; }
   [[nodiscard]] virtual bool seen(program::CellId /*fact*/) const { return false; }
-  /// Whether `seen` tells what it sees: then the end of its mission is judged by that, as the end of the simulator's own.
-  [[nodiscard]] virtual bool sees() const { return false; }
   /// Whether it has a mind that ticks and reports a tick only in the first period after it; its belief is asked for then.
   [[nodiscard]] virtual bool ticks_with_next_period() const { return false; }
   /// Whether nothing more will come from it; the drive is then over as soon as the robot stands.

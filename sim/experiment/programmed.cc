@@ -37,7 +37,7 @@ Programmed::Programmed(const Labyrinth& labyrinth, const mts::Body& body, const 
   const double from_m = forward ? road.begins_m + where.along_m : road.begins_m, to_m = forward ? road.ends_m : road.begins_m + where.along_m;
   std::vector<Spot> course = part_of(road.along, from_m, to_m);
   if (!forward) std::reverse(course.begin(), course.end());
-  add_road(labyrinth, where.road, course, {program::CellId::kNone, "", "", labyrinth[first].name, false});
+  add_road(labyrinth, where.road, course, {.to = labyrinth[first].name});
   const Arm* came = labyrinth[first].arm(forward ? road.approach : road.exit);
   for (std::size_t i = 0; i < route.exits.size(); ++i) {
     add_crossing(labyrinth, route, i, *came);
@@ -53,7 +53,7 @@ void Programmed::add_crossing(const Labyrinth& labyrinth, const RoutePlan& route
   const Arm& exit = *route.exits[i];
   Piece piece;
   piece.crossing = true;
-  piece.leg = {program::CellId::kNone, "", crossing.name, labyrinth[route.crossings[i + 1]].name, false};
+  piece.leg = {.from = crossing.name, .exit = exit.name, .to = labyrinth[route.crossings[i + 1]].name};
   const std::string method = crossing.methods.empty() ? "azimuth" : crossing.methods.front();
   piece.controller = method == "mark" ? mts::ControllerId::kTurnOnLine : method == "dist" ? mts::ControllerId::kTurnByWalls : mts::ControllerId::kTurnByCompass;
   piece.task.turn = word_for(wrap(exit.heading_rad - came.heading_rad - kPi));

@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "planners/crew.h"
-#include "sim/drive/lookout_helm.h"
 #include "sim/experiment/bug_helm.h"
 #include "sim/experiment/programmed.h"
 #include "sim/experiment/sized_helm.h"
@@ -63,7 +62,7 @@ std::size_t place_of(std::string_view method) {
 }  // namespace
 
 const std::vector<Method>& built_in_methods() {
-  static const std::vector<Method> methods{{Method::Control::kMind, "mts", {}}, {Method::Control::kLookout, "lookout", {}}, {Method::Control::kProgrammed, "programmed", {}}, {Method::Control::kBug, "bug2", {}}};
+  static const std::vector<Method> methods{{Method::Control::kMind, "mts", {}}, {Method::Control::kProgrammed, "programmed", {}}, {Method::Control::kBug, "bug2", {}}};
   return methods;
 }
 
@@ -159,11 +158,7 @@ Row Prepared::drive(std::uint32_t scenario, const Method& method, std::size_t se
   std::unique_ptr<Helm> helm;
   if (method.control == Method::Control::kProgrammed) helm = std::make_unique<SizedHelm>(as, std::make_unique<Programmed>(floor_, body, start, route_));
   if (method.control == Method::Control::kBug) helm = std::make_unique<SizedHelm>(as, std::make_unique<BugHelm>(body, start, floor_[goal].name, floor_[goal].at));
-  const MapRoads roads = town.roads();
   DriveOptions options;
-  if (method.control == Method::Control::kLookout) {
-    helm = std::make_unique<LookoutHelm>(town.knowledge(), roads, as_driven(read.body, read.sensors.range, read.drive), options.dt_us);
-  }
   options.helm = helm.get();
   const Summary summary = Drive(labyrinth, town.knowledge(), read, options).run();
 

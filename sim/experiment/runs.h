@@ -26,7 +26,7 @@ namespace kb::sim::experiment {
 
 /// A way to drive.
 struct Method {
-  enum class Control : std::uint8_t { kMind, kLookout, kProgrammed, kBug } control{};
+  enum class Control : std::uint8_t { kMind, kProgrammed, kBug } control{};
   std::string name;                       ///< as in the rows: no comma
   std::string mind;                       ///< kMind: the file whose rules drive; empty: the experiment's own rules
 };

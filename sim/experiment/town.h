@@ -10,7 +10,6 @@
 #include "sim/drive/drive.h"
 #include "sim/experiment/sketch.h"
 #include "sim/experiment/way.h"
-#include "sim/mind/map_roads.h"
 #include "sim/scenario/setting.h"
 
 namespace kb::sim::experiment {
@@ -32,8 +31,6 @@ class Town {
   /// The labyrinth as last laid out: `scenario` lays it out anew if its settings change the paint or the robot's size.
   [[nodiscard]] const Labyrinth& labyrinth() const { return *labyrinth_; }
   [[nodiscard]] const Knowledge& knowledge() const { return *knowledge_; }
-  /// The map as a C++ program knows it, on the floor as last laid out.
-  [[nodiscard]] MapRoads roads() const { return MapRoads(compiled_->model, labyrinth_->scale); }
   /// Reads a scenario, applies settings over it, and paints the floor accordingly. Throws as above.
   [[nodiscard]] Scenario scenario(const std::string& toml, const std::vector<Setting>& settings = {});
 

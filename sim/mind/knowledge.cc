@@ -48,7 +48,6 @@ void take_apart(Strategy& strategy) {
     strategy.doing = Doing::kCross;
     strategy.method = "azimuth";
     strategy.turn = name.substr(6);
-    strategy.signless = true;
   } else if (name.starts_with("Cross[") && comma != std::string_view::npos) {
     strategy.doing = Doing::kCross;
     strategy.turn = name.substr(6, comma - 6);
@@ -92,7 +91,10 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
   if (!argument.is_number) {
     value = mts::number_of_word(*parameter, argument.word.c_str());
     // The controllers have no word for turns such as `half_left`: these are driven by the headings of the task.
-    if (value < 0.0f && parameter->values == mts::Values::kTurn) return true;
+    if (value < 0.0f && parameter->values == mts::Values::kTurn) {
+      strategy.settings.push_back({argument.name, argument.word, {}, 0.0f});
+      return true;
+    }
   }
   const bool words = mts::words_of(parameter->values).count > 0;
   const bool other_unit = argument.is_number && !argument.unit.empty() && argument.unit != parameter->unit;
@@ -101,7 +103,7 @@ bool take_argument(Strategy& strategy, const program::Control& control, const pr
                        {argument.name, control.controller, words ? words_text(parameter->values) : range_text(*parameter, kRobot), value_text(argument)});
     return false;
   }
-  strategy.settings.push_back({argument.name, value});
+  strategy.settings.push_back({argument.name, argument.word, argument.unit, argument.is_number ? value : 0.0f});
   return true;
 }
 
@@ -203,6 +205,8 @@ std::string landmark_in(const model::Model& model, const model::Row& row, std::s
 void find_plans(const model::Model& model, Knowledge& out) {
   const auto order = program::cell_order(model);
   std::map<std::string_view, std::string> goals;   // by route
+  std::map<model::CellId, model::RowId> roads;     // by leg
+  for (const model::LegRoad& leg : model.leg_roads) roads.emplace(leg.leg, leg.road);
   for (const model::RowId id : model.rows_of("Leg")) {
     const model::Row& row = model[id];
     if (row.cell == model::CellId::kNone) continue;
@@ -211,7 +215,10 @@ void find_plans(const model::Model& model, Knowledge& out) {
     const bool detour = dot != std::string::npos && dot + 1 < row.name.size() && (row.name[dot + 1] < '0' || row.name[dot + 1] > '9');
     const model::Row* to = model.row_in(row, "to");
     const bool seen = to != nullptr && to->cell != model::CellId::kNone;
-    out.legs.push_back({order[model::index(row.cell)], std::string(row.name), landmark_in(model, row, "from"), landmark_in(model, row, "to"), detour,
+    const auto road = roads.find(row.cell);
+    const bool leaves = road != roads.end() && road->second != model::RowId::kNone;
+    out.legs.push_back({order[model::index(row.cell)], std::string(row.name), landmark_in(model, row, "from"),
+                        std::string(leaves ? model.member_in(model[road->second], "exit") : std::string_view()), landmark_in(model, row, "to"), detour,
                         model.row_in(row, "ends") != nullptr, seen ? order[model::index(to->cell)] : program::CellId::kNone});
     if (!detour) goals[row.name.substr(0, dot)] = out.legs.back().to;
   }

@@ -41,9 +41,11 @@ struct Strategy {
   Doing doing = Doing::kNothing;
   std::string method;                 ///< `Move[k]`, `Cross[t, k]`: k
   std::string turn;                   ///< `Cross[t, k]`, `Grope[t]`: t
-  bool signless = false;              ///< `Grope[t]`: it crosses by reckoning and ignores signs
   mts::ControllerId controller = mts::ControllerId::kStand;
-  struct Setting { std::string name; float value = 0.0f; };
+  struct Setting {
+    std::string name, word, unit;     ///< `word`: empty if it is a number
+    float number = 0.0f;
+  };
   std::vector<Setting> settings;      ///< what the control line sets
   const program::Control* control = nullptr;   ///< the control line; null: it has none
 
@@ -56,7 +58,7 @@ struct Strategy {
 
 struct Leg {
   program::CellId cell = program::CellId::kNone;
-  std::string name, from, to;         ///< landmarks; `from` is empty for the first of a route
+  std::string name{}, from{}, exit{}, to{};   ///< landmarks, and the side of `from` by which it leaves; both are empty for the first of a route
   bool detour = false;                ///< it belongs to a detour or a retreat
   bool last = false;                  ///< it ends its route
   program::CellId sight = program::CellId::kNone;   ///< the fact of its landmark `to`

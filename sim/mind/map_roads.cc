@@ -1,46 +1,61 @@
 #include "sim/mind/map_roads.h"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 
-#include "compiler/model/ground.h"
+#include "sim/world/geometry.h"
 
 namespace kb::sim {
+namespace {
 
-MapRoads::MapRoads(const model::Model& model, double metre) {
-  std::map<model::RowId, std::size_t> number;
-  for (const model::LegRoad& leg : model.leg_roads) {
-    if (leg.road != model::RowId::kNone) number.emplace(leg.road, 0);
+constexpr double kShortestPiece = 0.01;   // m
+
+std::vector<mts::Piece> pieces_of(const Labyrinth& labyrinth, const Arm& arm) {
+  std::vector<mts::Piece> pieces;
+  Spot here = labyrinth.point(arm, 0);
+  const std::size_t count = labyrinth[arm.road].along.size();
+  for (std::size_t i = 1; i < count; ++i) {
+    const Spot piece = labyrinth.point(arm, i) - here;
+    if (length(piece) < kShortestPiece && (i + 1 < count || !pieces.empty())) continue;
+    pieces.push_back({static_cast<float>(heading(piece)), static_cast<float>(length(piece))});
+    here = labyrinth.point(arm, i);
   }
-  std::vector<model::GroundRoad> used;
-  for (const model::Map& map : model.maps) {
-    const auto roads = model::ground_roads(model, map);
-    if (!roads) return;
-    std::copy_if(roads->begin(), roads->end(), std::back_inserter(used), [&](const model::GroundRoad& road) { return number.contains(road.row); });
+  return pieces;
+}
+
+/// From an arm to the one beside it that is nearest, up to pi.
+float apart_rad(const Crossing& crossing, const Arm& arm) {
+  double least_rad = kPi;
+  for (const Arm& other : crossing.arms) {
+    if (&other != &arm) least_rad = std::min(least_rad, std::abs(wrap(other.heading_rad - arm.heading_rad)));
   }
-  owned_.reserve(used.size());
-  for (const model::GroundRoad& road : used) {
-    number[road.row] = owned_.size();
-    Owned& owned = owned_.emplace_back(std::string(road.from), std::string(road.exit), std::string(road.to), std::string(road.approach), std::string(road.by));
-    for (const model::GroundPiece& piece : model::pieces_of(road, metre)) owned.course.push_back({static_cast<float>(piece.heading_rad), static_cast<float>(piece.length_m)});
-    roads_.push_back({owned.from.c_str(), owned.exit.c_str(), owned.to.c_str(), owned.approach.c_str(), owned.by.c_str(),
-                      road.limit_m_per_s > 0.0f ? road.limit_m_per_s : mts::kInfinity, owned.course.data(), static_cast<std::uint16_t>(owned.course.size()),
-                      static_cast<float>(road.begins_apart_rad), static_cast<float>(road.ends_apart_rad)});
-  }
-  const auto order = program::cell_order(model);
-  for (const model::LegRoad& leg : model.leg_roads) {
-    if (leg.road != model::RowId::kNone) legs_.push_back({order[model::index(leg.leg)], number[leg.road]});
+  return static_cast<float>(least_rad);
+}
+
+}  // namespace
+
+MapRoads::MapRoads(const Labyrinth& labyrinth) {
+  for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) {
+    for (const Arm& arm : labyrinth.crossings[c].arms) {
+      if (arm.leads_out) add(labyrinth, static_cast<CrossingId>(c), arm);
+    }
   }
 }
 
-const mts::MapRoad* MapRoads::find(const char* from, const char* exit) const {
-  const auto found = std::ranges::find_if(roads_, [&](const mts::MapRoad& road) { return mts::same_text(road.from, from) && mts::same_text(road.exit, exit); });
-  return found == roads_.end() ? nullptr : &*found;
+void MapRoads::add(const Labyrinth& labyrinth, CrossingId crossing, const Arm& arm) {
+  const Road& road = labyrinth[arm.road];
+  const Crossing &from = labyrinth[crossing], &to = labyrinth[arm.forward ? road.to : road.from];
+  const Arm& approach = *to.arm(arm.forward ? road.approach : road.exit);
+  by_end_.emplace(std::pair<std::string_view, std::string_view>(from.name, arm.name), roads_.size());
+  ends_.push_back({crossing, &arm});
+  const std::vector<mts::Piece>& course = courses_.emplace_back(pieces_of(labyrinth, arm));
+  roads_.push_back({from.name.c_str(), arm.name.c_str(), to.name.c_str(), approach.name.c_str(), road.method.c_str(), mts::kInfinity, course.data(),
+                    static_cast<std::uint16_t>(course.size()), apart_rad(from, arm), apart_rad(to, approach)});
 }
 
-const mts::MapRoad* MapRoads::of_leg(const std::function<bool(program::CellId)>& high) const {
-  const auto found = std::ranges::find_if(legs_, [&](const LegOn& leg) { return high(leg.leg); });
-  return found == legs_.end() ? nullptr : &roads_[found->road];
+const mts::MapRoad* MapRoads::find(std::string_view landmark, std::string_view exit) const {
+  const auto found = by_end_.find({landmark, exit});
+  return found == by_end_.end() ? nullptr : &roads_[found->second];
 }
 
 }  // namespace kb::sim

@@ -1,37 +1,36 @@
-// The map as `kbc compile --map` gives it to a C++ program: the roads that legs lead along, each in one direction.
+// The roads of a floor as `mts::Pilot` and `mts::Lookout` know them: what `kbc compile --map` gives to a C++ program.
 #pragma once
 
-#include <functional>
+#include <map>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <waymark/controllers/road_map.h>
-#include "compiler/model/model.h"
-#include "compiler/program/program.h"
+#include "sim/world/labyrinth.h"
 
 namespace kb::sim {
 
+/// Speed limits are not among what they say: see note [where a limit holds] in speed_limits.h.
 class MapRoads {
  public:
-  /// `metre`: how long a metre of the map is on the floor. Without places in the map there are no roads. O(n log n).
-  MapRoads(const model::Model& model, double metre);
+  /// `labyrinth` must outlive it. O(n log n).
+  explicit MapRoads(const Labyrinth& labyrinth);
   MapRoads(const MapRoads&) = delete;   // roads point into it
 
-  /// The road that leaves a landmark by one of its sides; null if no leg leads along it. O(roads).
-  [[nodiscard]] const mts::MapRoad* find(const char* from, const char* exit) const;
-  /// The road of the first leg that is `high`; null if there is none, or on the way to the first landmark of a route. O(legs).
-  [[nodiscard]] const mts::MapRoad* of_leg(const std::function<bool(program::CellId)>& high) const;
+  /// The road that leaves a landmark by one of its sides; null if there is none, or none that may be driven so. O(log n).
+  [[nodiscard]] const mts::MapRoad* find(std::string_view landmark, std::string_view exit) const;
+  /// Which road of the labyrinth it is, and the end where it begins.
+  [[nodiscard]] const Labyrinth::End& end_of(const mts::MapRoad& road) const { return ends_[static_cast<std::size_t>(&road - roads_.data())]; }
 
  private:
-  struct Owned {
-    std::string from, exit, to, approach, by;
-    std::vector<mts::Piece> course;
-  };
-  struct LegOn { program::CellId leg{}; std::size_t road = 0; };
+  void add(const Labyrinth& labyrinth, CrossingId crossing, const Arm& arm);
 
-  std::vector<Owned> owned_;
-  std::vector<mts::MapRoad> roads_;   // in the same order
-  std::vector<LegOn> legs_;
+  std::vector<std::vector<mts::Piece>> courses_;
+  std::vector<Labyrinth::End> ends_;
+  std::vector<mts::MapRoad> roads_;   // all in the same order
+  std::map<std::pair<std::string_view, std::string_view>, std::size_t> by_end_;
 };
 
 }  // namespace kb::sim

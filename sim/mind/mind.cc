@@ -47,9 +47,9 @@ void Mind::read(std::uint32_t reading, const std::string* text, std::int64_t now
   readings_.set(reading, known ? static_cast<float>(found - texts.begin() + 1) : 0.0f, now_us);
 }
 
-/// Computes the facts that the knowledge base defines itself; they replace what the plain perception wrote.
-void Mind::perceive(Perception& perception, const mts::Senses& senses, std::int64_t now_us) {
+void Mind::perceive(const Perceived& perceived, std::int64_t now_us) {
   using What = SensorFeed::What;
+  const mts::Senses& senses = *perceived.senses;
   for (const SensorFeed& feed : knowledge_->feeds) {
     for (std::uint32_t i = 0; i < feed.count; ++i) {
       if (feed.what == What::kLine && senses.line_known) readings_.set(feed.first + i, senses.line[i], now_us);
@@ -63,20 +63,17 @@ void Mind::perceive(Perception& perception, const mts::Senses& senses, std::int6
       readings_.set(feed.first, static_cast<float>(degrees < 0.0 ? degrees + 360.0 : degrees >= 360.0 ? degrees - 360.0 : degrees), now_us);
     }
     if (feed.what == What::kSpeed && senses.odometry_known) readings_.set(feed.first, senses.speed_m_s, now_us);
-    if (feed.what == What::kTag) read(feed.first, perception.tag_text(), now_us);
-    if (feed.what == What::kMemory) read(feed.first, perception.memory_text(), now_us);
+    if (feed.what == What::kTag) read(feed.first, perceived.tag, now_us);
+    if (feed.what == What::kMemory) read(feed.first, perceived.memory, now_us);
   }
   for (std::size_t i = facts_.size(); i < cells_.size(); ++i) cells_[i] = machine_.value(static_cast<program::CellId>(i));
   looker_->look(readings_, now_us, cells_, facts_);
 }
 
-const program::Tick& Mind::tick(Perception& perception, const mts::Senses& senses, std::int64_t now_us, std::uint32_t dt_us) {
+const program::Tick& Mind::tick(const Perceived& perceived, std::int64_t now_us, std::uint32_t dt_us) {
   std::swap(before_, facts_);
-  std::fill(facts_.begin(), facts_.end(), 0.0f);
-  const auto& routes = knowledge_->routes;
-  perception.rest(!routes.empty() && std::none_of(routes.begin(), routes.end(), [&](program::CellId route) { return high(route); }), static_cast<float>(dt_us) * 1e-6f);
-  perception.write(facts_);
-  if (looker_) perceive(perception, senses, now_us);
+  std::ranges::copy(perceived.facts, facts_.begin());
+  if (looker_) perceive(perceived, now_us);
   for (Button& button : pressed_) {
     facts_[program::index(button.fact)] = button.certainty;
     if (button.ticks != kHeld) --button.ticks;
@@ -85,9 +82,9 @@ const program::Tick& Mind::tick(Perception& perception, const mts::Senses& sense
   tick_ = machine_.tick(facts_, dt_us);
   const std::size_t first = knowledge_->program->cells.size() - knowledge_->program->strategies;
   strategy_ = tick_.strategy == program::CellId::kNone ? -1 : static_cast<int>(program::index(tick_.strategy) - first);
-  for (const program::Perceived& perceived : knowledge_->program->perception.perceived) {
-    const std::size_t f = program::index(perceived.fact);
-    if (facts_[f] != before_[f]) tick_.perceived.push_back({perceived.fact, facts_[f]});
+  for (const program::Perceived& fact : knowledge_->program->perception.perceived) {
+    const std::size_t f = program::index(fact.fact);
+    if (facts_[f] != before_[f]) tick_.perceived.push_back({fact.fact, facts_[f]});
   }
   std::sort(tick_.perceived.begin(), tick_.perceived.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
   return tick_;

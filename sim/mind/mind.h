@@ -8,11 +8,21 @@
 #include <string>
 #include <vector>
 
+#include <waymark/controllers/road_watch.h>
 #include "compiler/program/tick.h"
 #include "sim/mind/knowledge.h"
-#include "sim/mind/perception.h"
 
 namespace kb::sim {
+
+inline constexpr float kSure = mts::RoadWatch::kSure;
+
+/// What is perceived for a tick.
+struct Perceived {
+  std::span<const float> facts;         ///< of the standard library; 0 for all others
+  const mts::Senses* senses = nullptr;
+  const std::string* tag = nullptr;     ///< for the sensors `tag` and `memory` of a knowledge base: the landmark's name, and `cross mark`,
+  const std::string* memory = nullptr;  ///< `move dist`; null: nothing
+};
 
 class Mind {
  public:
@@ -35,8 +45,8 @@ class Mind {
   void set_clock(std::int64_t now_us);
   /// From now on the sensor is silent.
   void silence(std::uint32_t reading) { readings_.there[reading] = 0; }
-  /// One tick. Facts come from `perception`; those that the knowledge base perceives itself, from the senses.
-  const program::Tick& tick(Perception& perception, const mts::Senses& senses, std::int64_t now_us, std::uint32_t dt_us);
+  /// One tick. Facts that the knowledge base defines itself come from the senses; they replace what was perceived.
+  const program::Tick& tick(const Perceived& perceived, std::int64_t now_us, std::uint32_t dt_us);
 
   [[nodiscard]] float value(program::CellId cell) const { return machine_.value(cell); }
   [[nodiscard]] bool high(program::CellId cell) const { return machine_.value(cell) >= firing_; }
@@ -47,7 +57,7 @@ class Mind {
   [[nodiscard]] int strategy() const { return strategy_; }
 
  private:
-  void perceive(Perception& perception, const mts::Senses& senses, std::int64_t now_us);
+  void perceive(const Perceived& perceived, std::int64_t now_us);
 
   const Knowledge* knowledge_;
   tables::Machine machine_;

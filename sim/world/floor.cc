@@ -29,7 +29,6 @@ Floor::Floor(const Labyrinth& labyrinth)
       closed_by_(labyrinth.roads.size()),
       unsafe_by_(labyrinth.crossings.size()),
       unpainted_(labyrinth.crossings.size(), false),
-      halls_(maps_of_halls(labyrinth)),
       tags_(labyrinth.tags.size()),
       memories_(labyrinth.crossings.size()) {
   for (const Crossing& crossing : labyrinth.crossings) methods_.push_back(crossing.methods);
@@ -137,13 +136,7 @@ std::shared_ptr<const Memory> Floor::memory_of(CrossingId id) const {
   memory->landmark = crossing.name;
   memory->safe = safe(id);
   memory->methods = methods_[at(id)];
-  for (const Arm& arm : crossing.arms) {
-    const Road& road = labyrinth_[arm.road];
-    Memory::Exit exit{arm.name, closed(arm.road), road.method, arm.heading_rad, arm.stop_m, labyrinth_.course(arm), arm.leads_out, halls_[at(arm.road)]};
-    const Spot begin = exit.hall_begins = exit.course.front();
-    for (Spot& spot : exit.course) spot = spot - begin;
-    memory->exits.push_back(std::move(exit));
-  }
+  for (const Arm& arm : crossing.arms) memory->exits.push_back({arm.name, closed(arm.road)});
   return memory;
 }
 

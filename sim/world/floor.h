@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/world/hall_map.h"
 #include "sim/world/labyrinth.h"
 
 namespace kb::sim {
@@ -17,13 +16,6 @@ struct Memory {
   struct Exit {
     std::string name;                ///< `N`
     bool closed = false;             ///< the road must not be taken
-    std::string method;              ///< how the road is driven
-    double heading_rad = 0.0;        ///< of its first piece
-    double stop_m = 0.0;             ///< from the middle of the crossing to its stop line
-    std::vector<Spot> course;        ///< from stop line to stop line, from (0, 0)
-    bool leads_out = true;           ///< false: one-way, towards this crossing
-    std::shared_ptr<const HallMap> hall{};   ///< the hall that the road leads across; null: it is a plain road
-    Spot hall_begins{};              ///< where the course begins on that map
   };
   std::string landmark;
   bool safe = true;                  ///< the crossing may be entered
@@ -85,7 +77,6 @@ class Floor {
   std::vector<std::vector<Cause>> closed_by_, unsafe_by_;
   std::vector<bool> unpainted_;
   std::vector<std::vector<std::string>> methods_;
-  std::vector<std::shared_ptr<const HallMap>> halls_;    // by road
   std::vector<Worn> worn_;
   struct TagNow { TagState state = TagState::kWell; Reading reading; CrossingId instead = CrossingId::kNone; };
   std::vector<TagNow> tags_;                             // by the labyrinth's tags

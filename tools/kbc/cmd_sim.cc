@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "sim/drive/drive.h"
-#include "sim/drive/lookout_helm.h"
 #include "sim/report/report.h"
 #include "sim/scenario/scenario.h"
 #include "tools/kbc/checks.h"
@@ -42,7 +41,6 @@ struct SimOptions {
   std::optional<double> speed;   // seconds of the drive for one second of the clock; nothing: as fast as possible, with a live page 1
   std::optional<std::string> driver;
   std::string driver_timeout = "10s";
-  bool lookout = false;
 
   [[nodiscard]] bool reports() const {
     return live || !facts.empty() || !html.empty() || !svg.empty() || !perfetto.empty() || !csv.empty();
@@ -111,16 +109,6 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   if (options.reports()) how.recording = &recording;
   const wire::NoPipeSignal quiet;   // a driver that ends while something is sent to it is noticed when its next answer is read
   std::unique_ptr<wire::RemoteHelm> helm;
-  const sim::MapRoads roads(ground.compiled->model, labyrinth.scale);
-  std::unique_ptr<sim::LookoutHelm> lookout;
-  if (options.lookout) {
-    lookout = std::make_unique<sim::LookoutHelm>(*ground.knowledge, roads, sim::as_driven(scene.scenario.body, scene.scenario.sensors.range, scene.scenario.drive), how.dt_us);
-    how.helm = lookout.get();
-    if (traced) lookout->on_tick = [&](const program::Tick& tick) {
-      trace.write(print_json(ground.compiled->program, tick));
-      trace.write("\n");
-    };
-  }
   if (options.driver) {
     helm = start_driver(options, ground, trace, messages);
     if (helm == nullptr) return kErrors;
@@ -198,7 +186,6 @@ Run setup_sim(CLI::App& app) {
                               "Serve the page while the robot drives, to this machine alone: the port, 0 for any that is free")
                    ->type_name("PORT")
                    ->transform(is_port());
-  app.add_flag("--lookout", options->lookout, "Drive by mts::Lookout and mts::Pilot");
   app.add_option("--speed", options->speed, "Seconds of the drive for a second of the clock (as fast as it goes; with --live 1)")
       ->type_name("FACTOR")
       ->check(is_number<double>("speed; it is a number from 0.01 to 1000", [](double number) { return number >= 0.01 && number <= 1000.0; }));

@@ -34,7 +34,7 @@ std::string seconds(std::int64_t t_us) {
 
 Exchange::Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options)
     : knowledge_(&knowledge), abort_(knowledge.find("Abort")), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
-      body_(robot.body), driver_(knowledge, sim::as_driven(robot.body, robot.sensors.range, robot.drive)), names_(*knowledge.program), sensors_(knowledge) {
+      body_(robot.body), driver_(knowledge, labyrinth, sim::as_driven(robot.body, robot.sensors.range, robot.drive)), names_(*knowledge.program), sensors_(knowledge) {
   for (const sim::CrossingMethods& crossing : robot.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
 }
 
@@ -231,8 +231,7 @@ std::optional<Mistake> Exchange::look_up(const Line& line) {
 }
 
 void Exchange::put(std::string_view landmark, std::string_view exit, double along_m) {
-  const std::shared_ptr<const sim::Memory>& memory = floor_.memory(labyrinth_.crossing(landmark));
-  driver_.put(memory, static_cast<std::uint32_t>(exit_of(*memory, exit)), along_m);
+  driver_.put(landmark, exit, along_m);
 }
 
 std::optional<Mistake> Exchange::look_up_tag(const Tag& tag) {

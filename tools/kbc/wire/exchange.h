@@ -73,7 +73,7 @@ class Exchange {
     clock_.wakes = clock_.wakes || (holds_ && !holds);
     holds_ = holds;
   }
-  /// Whether the robot is never carried between two missions: see sim::Perception::keep_place.
+  /// Whether the robot is never carried between two missions: see sim::Driver::keep_place.
   void keep_place(bool keeps) { driver_.keep_place(keeps); }
   /// Puts the robot on the road that leaves `landmark` by `exit`, `along_m` of the floor from it, facing away. Both must exist on the floor.
   void put(std::string_view landmark, std::string_view exit, double along_m);
