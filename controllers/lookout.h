@@ -78,14 +78,18 @@ class Lookout {
     const SignRead* const read = take(sign);
     reader_ = sign.reader;
     watch_.step(pilot, read, dt_s, measured);
-    if (find_road_ && approaches()) tell_arrival(pilot, watch_.sign().landmark, side_from());
+    if (!find_road_) return;
+    if (approaches()) tell_arrival(pilot, watch_.sign().landmark, side_from());
+    tell_way_back(pilot);
+    if (const MapRoad* road = way_out(); road != nullptr && watch_.moves()) pilot.has_left_by(*road);
   }
   /// Before each tick: writes the facts that the knowledge base has. Others keep their values.
   void write(Facts& facts) noexcept {
     write_singles(facts);
     write_sign(facts);
     write_group(facts, kTrack, [&](const char* by) { return watch_.track(by); });
-    const char* const move_by = watch_.move_by();
+    const MapRoad* const out = way_out();
+    const char* const move_by = out != nullptr ? out->by : watch_.move_by();
     write_group(facts, kMoveBy, [&](const char* by) { return move_by[0] == '\0' ? 0.0f : RoadWatch::sure(same_text(by, move_by)); });
     write_group(facts, kBlind, [&](const char* sense) { return same_text(sense, "line") ? watch_.line_blind() : same_text(sense, "ranges") ? watch_.ranges_blind() : 0.0f; });
     watch_.forget_moments();
@@ -191,6 +195,17 @@ class Lookout {
     to_ = landmark, from_ = side;
     pilot.arrives_from(side[0] == '\0' ? nullptr : find_road_(landmark, side));
   }
+  void tell_way_back(Pilot& pilot) noexcept {
+    const MapRoad* const road = pilot.place().road();
+    if (road == there_) return;
+    there_ = road;
+    pilot.can_turn_back(road == nullptr ? nullptr : find_road_(road->to, road->approach));
+  }
+  /// The road on which the sign lies that the robot leaves behind; null: it leaves none behind, or not known.
+  [[nodiscard]] const MapRoad* way_out() const noexcept {
+    if (!find_road_ || watch_.at() != RoadWatch::At::kLeaving || watch_.landmark()[0] == '\0' || watch_.sign().exit[0] == '\0') return nullptr;
+    return find_road_(watch_.sign().landmark, watch_.sign().exit);
+  }
   [[nodiscard]] bool approaches() const noexcept { return watch_.at() == RoadWatch::At::kApproach; }
   /// The side from which the robot comes to a crossing; "" if it does not, or nobody knows.
   [[nodiscard]] const char* side_from() const noexcept { return approaches() && watch_.arrives_by()[0] == '\0' ? side_behind() : watch_.arrives_by(); }
@@ -249,6 +264,7 @@ class Lookout {
   RoadWatch watch_;
   FactRuns landmarks_;
   FindRoad find_road_;
+  const MapRoad* there_ = nullptr;               // the road whose way back the pilot was told
   const char *to_ = nullptr, *from_ = nullptr;   // the landmark, and the side from which the pilot was told that the robot comes to it
   Group groups_[kGroups];
   Index singles_[kSingles] = {};

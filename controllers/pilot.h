@@ -34,6 +34,10 @@ class Pilot {
   using Id = ControllerId;
 
  public:
+  /// What a line calls the controller of halls that decides by the rules of the host (Host::decide). No knowledge base has such a name: there
+  /// it is that of a fuzzy controller.
+  static constexpr const char* kRules = "follow_rules";
+
   /// `body`: the robot's own, in its own metres, whatever its size. `host`: see AnyController::choose.
   explicit Pilot(const Body& body = {}, const Host& host = {}) noexcept : as_(body.size), body_(as_.in(body)), host_(host), place_(body) {}
 
@@ -102,13 +106,19 @@ class Pilot {
   /// False: it is in a crossing, on an unknown road, or faces neither way.
   [[nodiscard]] bool is_to_face(float& heading_rad) const noexcept {
     if (crossed_ || !(place_.faces_along() || place_.faces_back())) return false;
-    const bool turns_back = way_back() != nullptr || !place_.faces_back();
+    const bool turns_back = way_round() != nullptr || !place_.faces_back();
     heading_rad = wrapped_angle(place_.spot().heading_rad + (turns_back ? kPi : 0.0f));
     return true;
   }
   /// What a sign says of the crossing ahead: the road that leaves it by the side from which the robot comes; null: unknown. It counts where the
   /// robot did not come by the road of its last leg, as at the first crossing of a mission.
   void arrives_from(const MapRoad* road) noexcept { behind_ = road; }
+  /// The road that it is on, in the other direction; null: unknown. It counts where the robot turns round and no leg says where that leads.
+  void can_turn_back(const MapRoad* road) noexcept { back_ = road; }
+  /// A sign says that it has just left a crossing by `road`. It counts if the robot did not know where it was.
+  void has_left_by(const MapRoad& road) noexcept {
+    if (place_.road() == nullptr && !crossed_) place_.put(road, line_out_m(road, as_.out(body_)));
+  }
   /// For programs with controllers of their own: to be called once, where one of them has driven through a crossing and stands on the line out.
   void leave_crossing() noexcept { crossed_ = left_ = true; }
   /// For robots that begin in the middle of a road, `along_m` from the middle of the crossing where it begins. They need a compass.
@@ -140,8 +150,9 @@ class Pilot {
  private:
   [[nodiscard]] Setting bind(AnyController& controller, const ControlLine& line) const noexcept {
     const ControllerEntry* entry = find_controller(line.controller);
-    if (entry == nullptr) return Setting::kUnknown;
-    controller.choose(entry->id, body_, host_);
+    const bool by_rules = host_.decide != nullptr && same_text(line.controller, kRules);
+    if (entry == nullptr && !by_rules) return Setting::kUnknown;
+    controller.choose(by_rules ? Id::kFollowRules : entry->id, body_, host_);
     for (std::uint32_t i = 0; i < line.count; ++i) {
       const Setting set = set_argument(controller, line.arguments[i]);
       if (set != Setting::kSet) return set;
@@ -168,7 +179,7 @@ class Pilot {
 
   void begin(const Senses& senses) noexcept {
     suspend();
-    const MapRoad* const back = drives_ && controller_.id() == Id::kTurnRound ? way_back() : nullptr;
+    const MapRoad* const back = drives_ && controller_.id() == Id::kTurnRound ? way_round() : nullptr;
     if (back != nullptr) place_.turn_back(*back);   // whatever it faces: near a bend neither along nor back
     changed_ = follows_ = false;
     running_ = line_;
@@ -294,6 +305,12 @@ class Pilot {
     }
     return nullptr;
   }
+  /// The same for a robot that turns round, which may be told so by no leg.
+  [[nodiscard]] const MapRoad* way_round() const noexcept {
+    if (const MapRoad* by_leg = way_back()) return by_leg;
+    const bool there = back_ != nullptr && place_.road() != nullptr && roads_.road() != place_.road() && is_way_back(*back_, *place_.road());
+    return there ? back_ : nullptr;
+  }
   void turn_back_if_leg_does() noexcept {
     const MapRoad* const back = way_back();
     if (back != nullptr && place_.faces_back()) place_.turn_back(*back);
@@ -341,7 +358,7 @@ class Pilot {
   AnyController controller_, suspended_;      // the second: what was interrupted and is to be continued, if `suspended_line_` is not null
   const ControlLine *line_ = nullptr, *running_ = nullptr, *suspended_line_ = nullptr;
   RoadsDriven roads_;
-  const MapRoad* behind_ = nullptr;           // see arrives_from
+  const MapRoad *behind_ = nullptr, *back_ = nullptr;   // see arrives_from, can_turn_back
   OnRoad place_;
   float limit_m_s_ = kInfinity;
   float told_m_ = kInfinity;                  // how far along its road the robot gets without being told more

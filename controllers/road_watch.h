@@ -98,6 +98,9 @@ class RoadWatch {
     return leg_->by;
   }
 
+  /// Whether a controller drives that follows a road.
+  [[nodiscard]] bool moves() const noexcept { return moves_; }
+
   // ---- the sign
   [[nodiscard]] At at() const noexcept { return at_; }
   /// "" if it is at none. Only a sign that was read for a quarter of a second counts.
