@@ -240,7 +240,7 @@ class Pilot {
       task.course[task.pieces++] = {set_down_rad_, kEndless_m};
       return task;
     }
-    if (place_.faces_back() || place_.road() == nullptr) return {};
+    if (place_.road() == nullptr || (place_.faces_back() && !crosses_hall(*place_.road()))) return {};   // in a hall it may face anywhere
     if (id == Id::kHoldHeading) shorten_overrun();
     return place_.task(id == Id::kHoldHeading);
   }

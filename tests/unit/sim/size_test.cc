@@ -5,7 +5,6 @@
 #include <set>
 #include <string>
 
-#include "sim/mind/small_memories.h"
 #include "tests/unit/sim/laboratory.h"
 
 namespace kb::sim::testing {
@@ -27,7 +26,7 @@ Pair both(std::string_view file) {
   layout.build.widths = {kSize * PaintWidths{}.line_m, kSize * PaintWidths{}.stop_line_m};
   pair.large = Laboratory::of_file(file, layout);
   for (Strategy& strategy : pair.large->knowledge->strategies) {
-    for (auto& setting : strategy.settings) setting.value = mts::Similarity(kLength).out(setting.value, mts::find_parameter(strategy.controller, setting.name.c_str())->unit);
+    for (auto& setting : strategy.settings) setting.number = mts::Similarity(kLength).out(setting.number, mts::find_parameter(strategy.controller, setting.name.c_str())->unit);
   }
   return pair;
 }
@@ -67,7 +66,7 @@ TEST_P(Size, AllThatIsBuiltOnAFloorGrowsWithIt) {
 class Twins final : public Helm {
  public:
   Twins(const Pair& pair, const mts::Body& body)
-      : pair_(pair), floor_(*pair.large->labyrinth), small_(*pair.small->knowledge, body), large_(*pair.large->knowledge, mts::Similarity(kLength).out(body)) {}
+      : pair_(pair), floor_(*pair.large->labyrinth), small_(*pair.small->knowledge, *pair.small->labyrinth, body), large_(*pair.large->knowledge, *pair.large->labyrinth, mts::Similarity(kLength).out(body)) {}
 
   mts::Motion step(std::int64_t now_us, const mts::Senses& senses, const TagHeard& tag, float dt_s) override {
     constexpr std::int64_t kTickUs = 100'000;
@@ -127,20 +126,6 @@ INSTANTIATE_TEST_SUITE_P(Floors, Size,
                            name = name.substr(name.rfind('/') + 1);
                            return name.substr(0, name.find('.'));
                          });
-
-TEST(SmallMemories, TwoTagsOfOneHallGiveOneSmallerHall) {
-  auto hall = std::make_shared<HallMap>();
-  hall->width_m = 8.0;
-  Memory memory;
-  memory.exits.resize(1);
-  memory.exits[0].hall = hall;
-  const TagHeard near{true, std::make_shared<Memory>(memory), 0}, far{true, std::make_shared<Memory>(memory), 0};
-  SmallMemories small(kSize);
-  const auto here = small.of(near).memory, there = small.of(far).memory;
-  EXPECT_NE(here, there);
-  EXPECT_EQ(here->exits[0].hall->width_m, 2.0);
-  EXPECT_EQ(here->exits[0].hall, there->exits[0].hall);
-}
 
 }  // namespace
 }  // namespace kb::sim::testing

@@ -42,7 +42,7 @@ control Cross[t, mark] = turn_on_line(turn: t, speed: 0.2 m/s)
 /// Drives by one mission, and by another one from some moment on.
 class Changing final : public Helm {
  public:
-  explicit Changing(const Knowledge& first) : now_(&first), driver_(first, kRobot) {}
+  explicit Changing(const Mission& first) : now_(&first.knowledge()), driver_(*now_, *first.laboratory->labyrinth, kRobot) {}
 
   /// Asked before each tick: the knowledge base to go on with; null: the same.
   std::function<const Knowledge*(const Driver&)> next = [](const Driver&) { return nullptr; };
@@ -86,7 +86,7 @@ std::string way_of(const Summary& summary) { return fmt::format("{}: {}", descri
 
 TEST(Taking, AMissionInPlaceOfItselfBeforeEveryTickChangesNoTick) {
   const Mission one("Well -> Mill -> Barn"), other("Well -> Mill -> Barn");
-  Changing still(one.knowledge()), moved(one.knowledge());
+  Changing still(one), moved(one);
   bool second = false;
   moved.next = [&](const Driver&) { return &((second = !second) ? other : one).knowledge(); };
   EXPECT_EQ(way_of(drive(one, still)), "arrived at Barn: Well.E Mill.E");
@@ -106,7 +106,7 @@ auto on_the_leg_to(std::string landmark, const Mission& other) {
 
 TEST(Taking, AWayThatGrowsOnItsLastLegIsDrivenAsIfItHadBeenKnownFromTheStart) {
   const Mission shorter("Well -> Mill"), longer("Well -> Mill -> Barn");
-  Changing known(longer.knowledge()), grown(shorter.knowledge());
+  Changing known(longer), grown(shorter);
   grown.next = on_the_leg_to("Mill", longer);
   const Summary all = drive(longer, known), part = drive(shorter, grown);
   EXPECT_EQ(way_of(part), "arrived at Barn: Well.E Mill.E");
@@ -116,7 +116,7 @@ TEST(Taking, AWayThatGrowsOnItsLastLegIsDrivenAsIfItHadBeenKnownFromTheStart) {
 
 TEST(Taking, AWayThatIsCutEndsWhereItEndsNow) {
   const Mission longer("Well -> Mill -> Barn"), shorter("Well -> Mill");
-  Changing cut(longer.knowledge());
+  Changing cut(longer);
   cut.next = on_the_leg_to("Mill", shorter);
   EXPECT_EQ(way_of(drive(longer, cut)), "arrived at Mill: Well.E");
 }
