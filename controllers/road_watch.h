@@ -266,6 +266,7 @@ class RoadWatch {
     }
     const bool begins_here = road_ != nullptr && same_text(sign.landmark, road_->from) && (sign.exit[0] == '\0' || same_text(sign.exit, road_->exit));
     if ((rounding_ || in_hall()) && begins_here && !pilot.place().faces_back()) return;   // the sign where its road began may be seen again on the way round something
+    if (misreads_begin(pilot, sign)) return;
     const At side = side_of(pilot, sign);
     if (side == At::kNowhere && !same) return;
     if (side == At::kLeaving && rounding_ && at_ == At::kApproach) return;   // it looks away to go round something
@@ -275,6 +276,11 @@ class RoadWatch {
     sign_ = sign;
     unread_s_ = since_m_ = 0.0f;
     if (moves_) came_rad_ = here_.heading_rad, came_known_ = pilot.place().heading_known();
+  }
+  /// Where its road begins lies the sign of the landmark that it leaves, so one that names another is misread, or a neighbour's.
+  [[nodiscard]] bool misreads_begin(const Pilot& pilot, const SignRead& sign) const noexcept {
+    if (road_ == nullptr || !senses_.odometry_known || !pilot.place().faces_along() || same_text(sign.landmark, road_->from)) return false;
+    return along_m_ < least(kSignReach_m, 0.5f * in_m(length_m(*road_)) - line_out_m(*road_, body_));
   }
   /// Whether the robot comes to the landmark of a sign or leaves it; kNowhere: neither, it looks across.
   [[nodiscard]] At side_of(const Pilot& pilot, const SignRead& sign) const noexcept {
