@@ -5,6 +5,7 @@
 // so that the drift of compass and odometry does not grow with the distance (map matching; the gain is that of a low-pass filter).
 #pragma once
 
+#include "line_sight.h"
 #include "reckoning.h"
 #include "road_map.h"
 #include "road_sight.h"
@@ -91,6 +92,29 @@ class OnRoad {
     x_m_ -= shift_m * sine(facing.heading_rad), y_m_ += shift_m * cosine(facing.heading_rad);
   }
 
+  /// The same when the robot crosses the road's line, on the way round something or in search of the line: a robot that was pushed aside learns
+  /// there where the road is. `pushed`: how far along it is, is unknown too. True if the robot is not where it was thought to be.
+  constexpr bool cross_line(const Senses& senses, bool pushed) noexcept {
+    if (!driven_by("mark") || !senses.line_known) return false;
+    const Spot here = spot();
+    const LineSight line = look_at_line(senses, small_);
+    const float size = body_.size, ends_m = kStopLineEnds_m * size;
+    const bool at_end = !pushed && (here.along_m < line_out_m(*road_, body_) + ends_m || here.along_m > end_of_course_m(*road_, body_) - ends_m);   // it may be a stop line
+    if (line.strength < 1.0f || turned_rad(here.along_m) < kFacesAlong_rad || to_bend_m(here.along_m) < kClearOfBend_m * size || at_end) return false;
+    const float ux = cosine(heading_rad()), uy = sine(heading_rad()), ahead_m = body_.line_ahead_m, left_m = size * line.left_m;
+    const float x_m = ahead_m * ux - left_m * uy - here.x_m, y_m = ahead_m * uy + left_m * ux - here.y_m;   // from the road to the paint
+    const float off_m = y_m * cosine(here.heading_rad) - x_m * sine(here.heading_rad);
+    if (magnitude(off_m) > kLargestShift_m * size + kDrift * here.along_m) return false;
+    x_m_ -= off_m * sine(here.heading_rad), y_m_ += off_m * cosine(here.heading_rad);
+    return magnitude(off_m) > kStillBeside_m * size;
+  }
+  [[nodiscard]] constexpr bool sees_line(const Senses& senses) const noexcept { return look_at_line(senses, small_).seen; }
+  [[nodiscard]] constexpr bool driven_by(const char* by) const noexcept { return road_ != nullptr && same_text(road_->by, by); }
+  /// Whether there is room before the end of the road to look for its line to both sides.
+  [[nodiscard]] constexpr bool has_room_to_seek() const noexcept {
+    return road_ != nullptr && spot().along_m + (4.0f * kSeeks_m + kStopLineEnds_m) * body_.size < end_of_course_m(*road_, body_);
+  }
+
   /// Null: unknown.
   [[nodiscard]] constexpr const MapRoad* road() const noexcept { return road_; }
   /// The robot's heading, and its way since it entered the road; both by reckoning.
@@ -140,26 +164,48 @@ class OnRoad {
     return best;
   }
 
-  /// What to ask of a controller that drives the rest of the road. If the robot is beside its middle and `rejoins`, the course leads back to
-  /// it first; otherwise it runs beside the road. Nothing if the road is unknown.
-  [[nodiscard]] constexpr Task task(bool rejoins) const noexcept {
+  /// How a course leads a robot that is beside the middle of its road.
+  enum class Back : std::uint8_t {
+    kNever,      ///< not at all: it runs as far aside as the robot is
+    kToMiddle,
+    kToLine,     ///< to the line, which is somewhere near, to the left or to the right
+  };
+  /// What to ask of a controller that drives the rest of the road. Nothing if the road is unknown.
+  [[nodiscard]] constexpr Task task(Back back) const noexcept {
     if (road_ == nullptr) return {};
     const Spot here = spot();
-    const float driven_m = here.along_m - begin_of_course_m(*road_, body_), ahead_m = kRejoin_m * body_.size;
-    const bool beside = rejoins && magnitude(here.left_m) > kBeside_m * body_.size && here.along_m + ahead_m < end_of_course_m(*road_, body_);
+    const float driven_m = here.along_m - begin_of_course_m(*road_, body_), size = body_.size;
+    const bool beside = back != Back::kNever && magnitude(here.left_m) > kBeside_m * size;
     Task task = task_along(*road_, body_, driven_m);
     if (task.in_hall) {
       for (Door* door : {&task.in, &task.out}) door->x_m += here.x_m, door->y_m += here.y_m;
     }
-    if (!beside) return task;
-    const Door there = way_between(*road_, here.along_m, here.along_m + ahead_m);
-    const float x_m = here.x_m + there.x_m, y_m = here.y_m + there.y_m;
-    const Task rest = task_along(*road_, body_, driven_m + ahead_m);
+    if (!beside && back != Back::kToLine) return task;
     task.pieces = 0;
-    task.course[task.pieces++] = {angle_of(x_m, y_m), square_root(x_m * x_m + y_m * y_m)};
-    for (std::size_t i = 0; i < rest.pieces && append(task, rest.course[i]); ++i) {}
+    float ahead_m = kRejoin_m * size + here.past_m;
+    if (back == Back::kToLine) {   // a zigzag: to the left of the middle, to the right of it, and back
+      ahead_m = 4.0f * kSeeks_m * size;
+      const float ux = cosine(here.heading_rad), uy = sine(here.heading_rad), side_m = kSeeks_m * size;
+      const float first_x_m = here.x_m + side_m * (ux - uy), first_y_m = here.y_m + side_m * (uy + ux);
+      task.course[task.pieces++] = {angle_of(first_x_m, first_y_m), square_root(first_x_m * first_x_m + first_y_m * first_y_m)};
+      task.course[task.pieces++] = {wrapped_angle(here.heading_rad - kOneInOne_rad), square_root(8.0f) * side_m};
+      task.course[task.pieces++] = {wrapped_angle(here.heading_rad + kOneInOne_rad), square_root(2.0f) * side_m};
+    } else {
+      // Past the end of the road it comes to the middle farther on, instead of turning back.
+      const Door there = way_between(*road_, here.along_m, here.along_m + ahead_m);
+      const float beyond_m = greatest(here.along_m + ahead_m - length_m(*road_), 0.0f);
+      const float x_m = here.x_m + there.x_m + beyond_m * cosine(end_heading_rad()), y_m = here.y_m + there.y_m + beyond_m * sine(end_heading_rad());
+      task.course[task.pieces++] = {angle_of(x_m, y_m), square_root(x_m * x_m + y_m * y_m)};
+    }
+    const Task rest = task_along(*road_, body_, driven_m + ahead_m);
+    bool room = true;
+    for (std::size_t i = 0; i < rest.pieces && room; ++i) room = append(task, rest.course[i]);
+    const bool near_end = here.along_m + ahead_m + kRejoin_m * size > end_of_course_m(*road_, body_);
+    if (room && near_end) static_cast<void>(append(task, {end_heading_rad(), kRejoin_m * size}));   // it crosses the stop line at a right angle
     return task;
   }
+  /// The direction in which the road reaches its end; it must be known.
+  [[nodiscard]] constexpr float end_heading_rad() const noexcept { return road_->course[road_->pieces - 1].heading_rad; }
 
  private:
   [[nodiscard]] constexpr float x_m() const noexcept { return body_.size * reckoning_.at.x_m; }
@@ -197,6 +243,8 @@ class OnRoad {
   static constexpr float kFacesAlong_rad = 0.25f, kBendShows_rad = 0.5f;   ///< the heading tells a sharper bend from straight on
   static constexpr float kLargestShift_m = 0.3f;   ///< a line farther aside is not that of this road
   static constexpr float kShiftTau_s = 0.5f;
+  static constexpr float kSeeks_m = 0.3f, kOneInOne_rad = 0.25f * kPi;   ///< to either side, in search of a line from which it was pushed away
+  static constexpr float kStillBeside_m = 0.08f, kStopLineEnds_m = 0.45f;
 
   Body body_, small_;                          ///< the robot's own; the same of size 1
   Reckoning reckoning_{};

@@ -21,6 +21,7 @@
 
 #include "../runtime/control_line.h"
 #include "any_controller.h"
+#include "line_seeker.h"
 #include "on_road.h"
 #include "road_map.h"
 #include "similarity.h"
@@ -62,8 +63,9 @@ class Pilot {
     const Senses& steady = heard_;
     place_.step(steady, sane_period(dt));
     if (!crossed_) place_.settle(steady, sane_period(dt));
+    const bool found = seeker_.step(steady, place_, controller_.id(), follows_, crossed_);
     if (line_ != running_) begin(steady);
-    else if (knows_no_more()) start(steady);
+    else if (found || knows_no_more()) start(steady);
     if (follows_ && place_.travelled_m() - followed_m_ > kForgets_m * size()) suspended_line_ = nullptr;
     if (follows_) came_rad_ = place_.heading_rad(), came_m_ = place_.travelled_m();
     if (suspended_line_ != nullptr) {
@@ -106,6 +108,8 @@ class Pilot {
     heading_rad = wrapped_angle(place_.spot().heading_rad + (turns_back ? kPi : 0.0f));
     return true;
   }
+  /// Whether the line of its road is somewhere beside it: see note [pushed aside].
+  [[nodiscard]] bool beside_line() const noexcept { return seeker_.gone(); }
   /// What a sign says of the crossing ahead: the road that leaves it by the side from which the robot comes; null: unknown. It counts where the
   /// robot did not come by the road of its last leg, as at the first crossing of a mission.
   void arrives_from(const MapRoad* road) noexcept { behind_ = road; }
@@ -130,6 +134,7 @@ class Pilot {
     set_down_ = false;
     roads_.forget();
     place_.forget();
+    seeker_.forget();
     suspended_line_ = running_ = nullptr;
     controller_.choose(Id::kStand, body_);   // if nothing is chosen any more, nothing begins either
     crossed_ = left_ = drives_ = changed_ = follows_ = false;
@@ -176,6 +181,7 @@ class Pilot {
       controller_ = suspended_;
       suspended_line_ = nullptr;
       drives_ = true;
+      seeker_.begin(controller_.id());
       if (is_manoeuvre(controller_.id())) crossed_ = true;
       follows_ = follows(controller_.id());
       followed_m_ = place_.travelled_m();
@@ -184,6 +190,7 @@ class Pilot {
     drives_ = line_ != nullptr && bind(controller_, *line_) == Setting::kSet;
     if (line_ != nullptr && !drives_) left_ = false;   // a controller of the program's own may go anywhere
     if (!drives_) return controller_.choose(Id::kStand, body_);
+    seeker_.begin(controller_.id());
     start(senses);
   }
   /// A manoeuvre that is over is kept as well: the rules may not have noticed, and it is not to be driven again.
@@ -220,7 +227,7 @@ class Pilot {
       if (crossed_ || place_.road() == nullptr) return {};
       turn_back_if_leg_does();
       if (same_text(place_.road()->by, "dist")) return {};   // walls show where the road bends
-      return place_.faces_back() ? Task{} : place_.task(false);
+      return place_.faces_back() ? Task{} : place_.task(OnRoad::Back::kNever);
     }
     if (!follows(id)) return {};
     follow_road(senses);
@@ -231,7 +238,8 @@ class Pilot {
     }
     if (place_.faces_back() || place_.road() == nullptr) return {};
     if (id == Id::kHoldHeading) shorten_overrun();
-    return place_.task(id == Id::kHoldHeading);
+    if (id != Id::kHoldHeading) return place_.task(OnRoad::Back::kNever);
+    return place_.task(seeker_.seeks(place_) ? OnRoad::Back::kToLine : OnRoad::Back::kToMiddle);
   }
   [[nodiscard]] Task across(const Senses& senses) noexcept {
     suspended_line_ = nullptr;
@@ -343,6 +351,7 @@ class Pilot {
   RoadsDriven roads_;
   const MapRoad* behind_ = nullptr;           // see arrives_from
   OnRoad place_;
+  LineSeeker seeker_;
   float limit_m_s_ = kInfinity;
   float told_m_ = kInfinity;                  // how far along its road the robot gets without being told more
   bool drives_ = false;
