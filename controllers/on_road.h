@@ -27,11 +27,21 @@ class OnRoad {
   /// `body` is the robot's own, not converted.
   constexpr explicit OnRoad(const Body& body = {}) noexcept : body_(body), small_(Similarity(body.size).in(body)) {}
 
-  /// A manoeuvre begins, with the line sensors on the stop line in, `line_m` before the middle; `heading_rad`: in which the robot comes.
-  constexpr void enter_crossing(float heading_rad, float line_m) noexcept {
+  /// A manoeuvre begins, with the line sensors on the stop line in, `line_m` before the middle, and the robot `left_m` to the left of the road;
+  /// `heading_rad`: in which the robot comes.
+  constexpr void enter_crossing(float heading_rad, float line_m, float left_m = 0.0f) noexcept {
     const float to_middle_m = line_m + body_.line_ahead_m;
-    middle_x_m_ = x_m() + to_middle_m * cosine(heading_rad);
-    middle_y_m_ = y_m() + to_middle_m * sine(heading_rad);
+    middle_x_m_ = x_m() + to_middle_m * cosine(heading_rad) + left_m * sine(heading_rad);
+    middle_y_m_ = y_m() + to_middle_m * sine(heading_rad) - left_m * cosine(heading_rad);
+  }
+  /// How far to the left of the road the robot is at its end, for instance after going round something. 0 if the road is unknown or does not reach
+  /// its end in this direction, or if the robot is so near the middle that line and walls tell it better.
+  [[nodiscard]] constexpr float left_of_end_m(float heading_rad) const noexcept {
+    if (road_ == nullptr || magnitude(wrapped_angle(end_heading_rad() - heading_rad)) > 0.25f * kPi) return 0.0f;
+    const Spot here = spot();
+    const Door on = way_between(*road_, here.along_m, length_m(*road_));
+    const float left_m = (here.x_m + on.x_m) * sine(end_heading_rad()) - (here.y_m + on.y_m) * cosine(end_heading_rad());
+    return magnitude(left_m) > kNoticed_m * body_.size && magnitude(left_m) < kStopLineEnds_m * body_.size ? left_m : 0.0f;
   }
   /// The robot leaves the crossing where `road` begins, with its line sensors on the stop line out. Null: it is on an unknown road.
   constexpr void enter(const MapRoad* road, const Senses& senses) noexcept {
@@ -58,8 +68,11 @@ class OnRoad {
     entered_m_ = along_m;
     turned_m_ = travelled_m();
   }
-  /// It may be anywhere.
-  constexpr void forget() noexcept { road_ = nullptr; }
+  /// It may be anywhere, and face anywhere.
+  constexpr void forget() noexcept {
+    road_ = nullptr;
+    turned_away_ = true;
+  }
   /// The robot has come about where it is, and `back` is its road in the other direction.
   constexpr void turn_back(const MapRoad& back) noexcept {
     const float length = length_m(*road_);
@@ -73,6 +86,9 @@ class OnRoad {
     if (!started_) reckoning_.start(senses, {});
     started_ = true;
     reckoning_.step(senses, dt_s);
+    if (!turned_away_ || !senses.heading_known) return;
+    reckoning_.at.heading_rad = wrapped_angle(senses.heading_rad);   // a robot that was carried was turned without its wheels
+    turned_away_ = false;
   }
 
   /// Corrects the road by its line or walls. To be called each period while the robot is on the road. Near a bend they show nothing, but a robot
@@ -110,6 +126,13 @@ class OnRoad {
   }
   [[nodiscard]] constexpr bool sees_line(const Senses& senses) const noexcept { return look_at_line(senses, small_).seen; }
   [[nodiscard]] constexpr bool driven_by(const char* by) const noexcept { return road_ != nullptr && same_text(road_->by, by); }
+  /// Whether the robot is so far beside its road that it has to come back to it on its way round something; not past the end of the road, where it
+  /// would come to a crossing first.
+  [[nodiscard]] constexpr bool far_off() const noexcept {
+    if (road_ == nullptr) return false;
+    const Spot here = spot();
+    return magnitude(here.left_m) > kFarOff_m * body_.size && here.along_m + here.past_m < end_of_course_m(*road_, body_);
+  }
   /// Whether there is room before the end of the road to look for its line to both sides.
   [[nodiscard]] constexpr bool has_room_to_seek() const noexcept {
     return road_ != nullptr && spot().along_m + (4.0f * kSeeks_m + kStopLineEnds_m) * body_.size < end_of_course_m(*road_, body_);
@@ -126,6 +149,8 @@ class OnRoad {
   /// Whether the robot faces along the road, or back to where it came from, to 45 degrees. False if the road is unknown.
   [[nodiscard]] constexpr bool faces_along() const noexcept { return road_ != nullptr && turned_rad() < 0.25f * kPi; }
   [[nodiscard]] constexpr bool faces_back() const noexcept { return road_ != nullptr && turned_rad() > 0.75f * kPi; }
+  /// Whether it is so far from the nearest bend that line and walls are straight beside it. The road must be known.
+  [[nodiscard]] constexpr bool clear_of_bend() const noexcept { return !(to_bend_m(spot().along_m) < kClearOfBend_m * body_.size); }
   /// Where it is in the reckoning's own frame, which has the axes of the compass.
   [[nodiscard]] constexpr Place at() const noexcept { return {x_m(), y_m(), heading_rad()}; }
   /// The least angle between the robot's heading and a piece of the road near by, along it; 0 to pi. The road must be known.
@@ -244,12 +269,13 @@ class OnRoad {
   static constexpr float kLargestShift_m = 0.3f;   ///< a line farther aside is not that of this road
   static constexpr float kShiftTau_s = 0.5f;
   static constexpr float kSeeks_m = 0.3f, kOneInOne_rad = 0.25f * kPi;   ///< to either side, in search of a line from which it was pushed away
-  static constexpr float kStillBeside_m = 0.08f, kStopLineEnds_m = 0.45f;
+  static constexpr float kFarOff_m = 0.35f;
+  static constexpr float kStillBeside_m = 0.08f, kNoticed_m = 0.12f, kStopLineEnds_m = 0.45f;
 
   Body body_, small_;                          ///< the robot's own; the same of size 1
   Reckoning reckoning_{};
   const MapRoad* road_ = nullptr;
-  bool started_ = false;
+  bool started_ = false, turned_away_ = false;
   float middle_x_m_ = 0.0f, middle_y_m_ = 0.0f;   ///< of the crossing that it entered last, in the reckoning's frame
   float x_m_ = 0.0f, y_m_ = 0.0f;    ///< the middle of the road's first crossing, in the reckoning's frame
   float entered_m_ = 0.0f;           ///< how far along the robot was when it entered the road, or came about

@@ -67,7 +67,7 @@ class Pilot {
     if (line_ != running_) begin(steady);
     else if (found || knows_no_more()) start(steady);
     if (follows_ && place_.travelled_m() - followed_m_ > kForgets_m * size()) suspended_line_ = nullptr;
-    if (follows_) came_rad_ = place_.heading_rad(), came_m_ = place_.travelled_m();
+    if (follows_) came_rad_ = place_.heading_rad(), came_m_ = place_.travelled_m(), beside_m_ = greatest(beside_m_ - place_.way_m(), 0.0f);
     if (suspended_line_ != nullptr) {
       Senses reckons = steady;
       reckons.line_known = false;
@@ -101,9 +101,9 @@ class Pilot {
   [[nodiscard]] static constexpr bool is_manoeuvre(ControllerId id) noexcept { return id == Id::kTurnOnLine || id == Id::kTurnByWalls || id == Id::kTurnByCompass; }
   [[nodiscard]] static constexpr bool follows(ControllerId id) noexcept { return !is_manoeuvre(id) && id != Id::kStand && id != Id::kRoundObstacle && id != Id::kTurnRound && id != Id::kLookRound; }
   /// Where a robot is to face that turns round on its road: back along it, or along it if it faces back already and the leg does not lead there.
-  /// False: it is in a crossing, on an unknown road, or faces neither way.
+  /// False: it is in a crossing, on an unknown road, or near a bend and faces neither way.
   [[nodiscard]] bool is_to_face(float& heading_rad) const noexcept {
-    if (crossed_ || !(place_.faces_along() || place_.faces_back())) return false;
+    if (crossed_ || place_.road() == nullptr || !(place_.faces_along() || place_.faces_back() || place_.clear_of_bend())) return false;
     const bool turns_back = way_back() != nullptr || !place_.faces_back();
     heading_rad = wrapped_angle(place_.spot().heading_rad + (turns_back ? kPi : 0.0f));
     return true;
@@ -139,6 +139,7 @@ class Pilot {
     controller_.choose(Id::kStand, body_);   // if nothing is chosen any more, nothing begins either
     crossed_ = left_ = drives_ = changed_ = follows_ = false;
     came_m_ = -kInfinity;
+    beside_m_ = 0.0f;
     told_m_ = kInfinity;
   }
 
@@ -226,8 +227,9 @@ class Pilot {
     if (id == Id::kRoundObstacle) {
       if (crossed_ || place_.road() == nullptr) return {};
       turn_back_if_leg_does();
+      beside_m_ = kBackInMiddle_m * size();
       if (same_text(place_.road()->by, "dist")) return {};   // walls show where the road bends
-      return place_.faces_back() ? Task{} : place_.task(OnRoad::Back::kNever);
+      return place_.faces_back() ? Task{} : place_.task(place_.far_off() ? OnRoad::Back::kToMiddle : OnRoad::Back::kNever);
     }
     if (!follows(id)) return {};
     follow_road(senses);
@@ -250,8 +252,11 @@ class Pilot {
     const Body body = as_.out(body_);
     const Arrival arrival = arrives(senses, body);
     to_middle_m_ = arrival.line_m;
-    place_.enter_crossing(arrival.heading_known ? arrival.heading_rad : place_.heading_rad(), arrival.line_m);
-    return task_across(arrival, roads_.road(), body);
+    const float in_rad = arrival.heading_known ? arrival.heading_rad : place_.heading_rad(), left_m = beside_m_ > 0.0f ? place_.left_of_end_m(in_rad) : 0.0f;
+    place_.enter_crossing(in_rad, arrival.line_m, left_m);
+    Task task = task_across(arrival, roads_.road(), body);
+    task.entry_left_m = left_m;
+    return task;
   }
   /// By the road of its last leg; by that which the sign says, if it did not come by the other, whatever carried it here; or as it last drove, since it
   /// may have looked round.
@@ -286,6 +291,7 @@ class Pilot {
       if (left_ || road == nullptr || !knows_frame) place_.enter(road, senses);
       else place_.enter_aside(*road);
       entered_m_ = -kInfinity;   // it is through
+      beside_m_ = 0.0f;
     } else {
       turn_back_if_leg_does();
     }
@@ -339,7 +345,7 @@ class Pilot {
 
   [[nodiscard]] float size() const noexcept { return as_.out(1.0f, "m"); }
 
-  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f, kEndless_m = 1e3f;
+  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f, kEndless_m = 1e3f, kBackInMiddle_m = 1.0f;
 
   Similarity as_;
   Body body_;                                 // of size 1, as the controllers know it
@@ -359,6 +365,7 @@ class Pilot {
   float set_down_rad_ = 0.0f;
   float entered_m_ = 0.0f, followed_m_ = 0.0f;   // what it had travelled when the last manoeuvre began, and when it last began to follow a road
   float to_middle_m_ = 0.0f;
+  float beside_m_ = 0.0f;                     // how far it has yet to follow its road to be in its middle again, after going round something
   float came_rad_ = 0.0f, came_m_ = -kInfinity;   // its heading when it last followed a road, and what it had travelled then
   bool follows_ = false;                      // the controller follows a road
   bool crossed_ = false;                      // a manoeuvre has run since the robot last followed a road

@@ -101,7 +101,7 @@ class RoadWatch {
   // ---- the sign
   [[nodiscard]] At at() const noexcept { return at_; }
   /// "" if it is at none. Only a sign that was read for a quarter of a second counts.
-  [[nodiscard]] const char* landmark() const noexcept { return turned_from_sign_ || !believed() ? "" : sign_.landmark; }
+  [[nodiscard]] const char* landmark() const noexcept { return turned_from_sign_ || (set_down_ && at_ == At::kLeaving) || !believed() ? "" : sign_.landmark; }
   /// What it says; only the last sign that was believed counts.
   [[nodiscard]] const SignRead& sign() const noexcept { return sign_; }
   /// Falls with the way since it was read.
@@ -190,6 +190,7 @@ class RoadWatch {
     if (id_ == ControllerId::kTurnRound) {
       round_rad_ = 0.0f;
       turned_back_ = true;
+      met_line_ = waits_at_line_ = false;
       knows_way_back_ = pilot.is_to_face(way_back_rad_);
     }
   }
@@ -239,8 +240,9 @@ class RoadWatch {
       if (at_ != At::kApproach) sign_ = {};   // it crosses without a sign
       at_ = At::kCrossing;
       since_m_ = 0.0f;
-      turned_back_ = false;
+      turned_back_ = begins_on_road_ = false;
     }
+    if (leaves_) beside_m_ = 0.0f;   // it begins in the middle of another road
     if (leaves_ && at_ == At::kCrossing) {
       at_ = At::kLeaving;
       since_m_ = unread_s_ = 0.0f;
