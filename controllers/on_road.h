@@ -5,6 +5,7 @@
 // so that the drift of compass and odometry does not grow with the distance (map matching; the gain is that of a low-pass filter).
 #pragma once
 
+#include "line_sight.h"
 #include "reckoning.h"
 #include "road_map.h"
 #include "road_sight.h"
@@ -26,11 +27,21 @@ class OnRoad {
   /// `body` is the robot's own, not converted.
   constexpr explicit OnRoad(const Body& body = {}) noexcept : body_(body), small_(Similarity(body.size).in(body)) {}
 
-  /// A manoeuvre begins, with the line sensors on the stop line in, `line_m` before the middle; `heading_rad`: in which the robot comes.
-  constexpr void enter_crossing(float heading_rad, float line_m) noexcept {
+  /// A manoeuvre begins, with the line sensors on the stop line in, `line_m` before the middle, and the robot `left_m` to the left of the road;
+  /// `heading_rad`: in which the robot comes.
+  constexpr void enter_crossing(float heading_rad, float line_m, float left_m = 0.0f) noexcept {
     const float to_middle_m = line_m + body_.line_ahead_m;
-    middle_x_m_ = x_m() + to_middle_m * cosine(heading_rad);
-    middle_y_m_ = y_m() + to_middle_m * sine(heading_rad);
+    middle_x_m_ = x_m() + to_middle_m * cosine(heading_rad) + left_m * sine(heading_rad);
+    middle_y_m_ = y_m() + to_middle_m * sine(heading_rad) - left_m * cosine(heading_rad);
+  }
+  /// How far to the left of the road the robot is at its end, for instance after going round something. 0 if the road is unknown or does not reach
+  /// its end in this direction, or if the robot is so near the middle that line and walls tell it better.
+  [[nodiscard]] constexpr float left_of_end_m(float heading_rad) const noexcept {
+    if (road_ == nullptr || magnitude(wrapped_angle(end_heading_rad() - heading_rad)) > 0.25f * kPi) return 0.0f;
+    const Spot here = spot();
+    const Door on = way_between(*road_, here.along_m, length_m(*road_));
+    const float left_m = (here.x_m + on.x_m) * sine(end_heading_rad()) - (here.y_m + on.y_m) * cosine(end_heading_rad());
+    return magnitude(left_m) > kNoticed_m * body_.size && magnitude(left_m) < kStopLineEnds_m * body_.size ? left_m : 0.0f;
   }
   /// The robot leaves the crossing where `road` begins, with its line sensors on the stop line out. Null: it is on an unknown road.
   constexpr void enter(const MapRoad* road, const Senses& senses) noexcept {
@@ -57,8 +68,11 @@ class OnRoad {
     entered_m_ = along_m;
     turned_m_ = travelled_m();
   }
-  /// It may be anywhere.
-  constexpr void forget() noexcept { road_ = nullptr; }
+  /// It may be anywhere, and face anywhere.
+  constexpr void forget() noexcept {
+    road_ = nullptr;
+    turned_away_ = true;
+  }
   /// The robot has come about where it is, and `back` is its road in the other direction.
   constexpr void turn_back(const MapRoad& back) noexcept {
     const float length = length_m(*road_);
@@ -72,6 +86,9 @@ class OnRoad {
     if (!started_) reckoning_.start(senses, {});
     started_ = true;
     reckoning_.step(senses, dt_s);
+    if (!turned_away_ || !senses.heading_known) return;
+    reckoning_.at.heading_rad = wrapped_angle(senses.heading_rad);   // a robot that was carried was turned without its wheels
+    turned_away_ = false;
   }
 
   /// Corrects the road by its line or walls. To be called each period while the robot is on the road. Near a bend they show nothing, but a robot
@@ -91,6 +108,36 @@ class OnRoad {
     x_m_ -= shift_m * sine(facing.heading_rad), y_m_ += shift_m * cosine(facing.heading_rad);
   }
 
+  /// The same when the robot crosses the road's line, on the way round something or in search of the line: a robot that was pushed aside learns
+  /// there where the road is. `pushed`: how far along it is, is unknown too. True if the robot is not where it was thought to be.
+  constexpr bool cross_line(const Senses& senses, bool pushed) noexcept {
+    if (!driven_by("mark") || !senses.line_known) return false;
+    const Spot here = spot();
+    const LineSight line = look_at_line(senses, small_);
+    const float size = body_.size, ends_m = kStopLineEnds_m * size;
+    const bool at_end = !pushed && (here.along_m < line_out_m(*road_, body_) + ends_m || here.along_m > end_of_course_m(*road_, body_) - ends_m);   // it may be a stop line
+    if (line.strength < 1.0f || turned_rad(here.along_m) < kFacesAlong_rad || to_bend_m(here.along_m) < kClearOfBend_m * size || at_end) return false;
+    const float ux = cosine(heading_rad()), uy = sine(heading_rad()), ahead_m = body_.line_ahead_m, left_m = size * line.left_m;
+    const float x_m = ahead_m * ux - left_m * uy - here.x_m, y_m = ahead_m * uy + left_m * ux - here.y_m;   // from the road to the paint
+    const float off_m = y_m * cosine(here.heading_rad) - x_m * sine(here.heading_rad);
+    if (magnitude(off_m) > kLargestShift_m * size + kDrift * here.along_m) return false;
+    x_m_ -= off_m * sine(here.heading_rad), y_m_ += off_m * cosine(here.heading_rad);
+    return magnitude(off_m) > kStillBeside_m * size;
+  }
+  [[nodiscard]] constexpr bool sees_line(const Senses& senses) const noexcept { return look_at_line(senses, small_).seen; }
+  [[nodiscard]] constexpr bool driven_by(const char* by) const noexcept { return road_ != nullptr && same_text(road_->by, by); }
+  /// Whether the robot is so far beside its road that it has to come back to it on its way round something; not past the end of the road, where it
+  /// would come to a crossing first.
+  [[nodiscard]] constexpr bool far_off() const noexcept {
+    if (road_ == nullptr) return false;
+    const Spot here = spot();
+    return magnitude(here.left_m) > kFarOff_m * body_.size && here.along_m + here.past_m < end_of_course_m(*road_, body_);
+  }
+  /// Whether there is room before the end of the road to look for its line to both sides.
+  [[nodiscard]] constexpr bool has_room_to_seek() const noexcept {
+    return road_ != nullptr && spot().along_m + (4.0f * kSeeks_m + kStopLineEnds_m) * body_.size < end_of_course_m(*road_, body_);
+  }
+
   /// Null: unknown.
   [[nodiscard]] constexpr const MapRoad* road() const noexcept { return road_; }
   /// The robot's heading, and its way since it entered the road; both by reckoning.
@@ -102,6 +149,8 @@ class OnRoad {
   /// Whether the robot faces along the road, or back to where it came from, to 45 degrees. False if the road is unknown.
   [[nodiscard]] constexpr bool faces_along() const noexcept { return road_ != nullptr && turned_rad() < 0.25f * kPi; }
   [[nodiscard]] constexpr bool faces_back() const noexcept { return road_ != nullptr && turned_rad() > 0.75f * kPi; }
+  /// Whether it is so far from the nearest bend that line and walls are straight beside it. The road must be known.
+  [[nodiscard]] constexpr bool clear_of_bend() const noexcept { return !(to_bend_m(spot().along_m) < kClearOfBend_m * body_.size); }
   /// Where it is in the reckoning's own frame, which has the axes of the compass.
   [[nodiscard]] constexpr Place at() const noexcept { return {x_m(), y_m(), heading_rad()}; }
   /// The least angle between the robot's heading and a piece of the road near by, along it; 0 to pi. The road must be known.
@@ -140,26 +189,48 @@ class OnRoad {
     return best;
   }
 
-  /// What to ask of a controller that drives the rest of the road. If the robot is beside its middle and `rejoins`, the course leads back to
-  /// it first; otherwise it runs beside the road. Nothing if the road is unknown.
-  [[nodiscard]] constexpr Task task(bool rejoins) const noexcept {
+  /// How a course leads a robot that is beside the middle of its road.
+  enum class Back : std::uint8_t {
+    kNever,      ///< not at all: it runs as far aside as the robot is
+    kToMiddle,
+    kToLine,     ///< to the line, which is somewhere near, to the left or to the right
+  };
+  /// What to ask of a controller that drives the rest of the road. Nothing if the road is unknown.
+  [[nodiscard]] constexpr Task task(Back back) const noexcept {
     if (road_ == nullptr) return {};
     const Spot here = spot();
-    const float driven_m = here.along_m - begin_of_course_m(*road_, body_), ahead_m = kRejoin_m * body_.size;
-    const bool beside = rejoins && magnitude(here.left_m) > kBeside_m * body_.size && here.along_m + ahead_m < end_of_course_m(*road_, body_);
+    const float driven_m = here.along_m - begin_of_course_m(*road_, body_), size = body_.size;
+    const bool beside = back != Back::kNever && magnitude(here.left_m) > kBeside_m * size;
     Task task = task_along(*road_, body_, driven_m);
     if (task.in_hall) {
       for (Door* door : {&task.in, &task.out}) door->x_m += here.x_m, door->y_m += here.y_m;
     }
-    if (!beside) return task;
-    const Door there = way_between(*road_, here.along_m, here.along_m + ahead_m);
-    const float x_m = here.x_m + there.x_m, y_m = here.y_m + there.y_m;
-    const Task rest = task_along(*road_, body_, driven_m + ahead_m);
+    if (!beside && back != Back::kToLine) return task;
     task.pieces = 0;
-    task.course[task.pieces++] = {angle_of(x_m, y_m), square_root(x_m * x_m + y_m * y_m)};
-    for (std::size_t i = 0; i < rest.pieces && append(task, rest.course[i]); ++i) {}
+    float ahead_m = kRejoin_m * size + here.past_m;
+    if (back == Back::kToLine) {   // a zigzag: to the left of the middle, to the right of it, and back
+      ahead_m = 4.0f * kSeeks_m * size;
+      const float ux = cosine(here.heading_rad), uy = sine(here.heading_rad), side_m = kSeeks_m * size;
+      const float first_x_m = here.x_m + side_m * (ux - uy), first_y_m = here.y_m + side_m * (uy + ux);
+      task.course[task.pieces++] = {angle_of(first_x_m, first_y_m), square_root(first_x_m * first_x_m + first_y_m * first_y_m)};
+      task.course[task.pieces++] = {wrapped_angle(here.heading_rad - kOneInOne_rad), square_root(8.0f) * side_m};
+      task.course[task.pieces++] = {wrapped_angle(here.heading_rad + kOneInOne_rad), square_root(2.0f) * side_m};
+    } else {
+      // Past the end of the road it comes to the middle farther on, instead of turning back.
+      const Door there = way_between(*road_, here.along_m, here.along_m + ahead_m);
+      const float beyond_m = greatest(here.along_m + ahead_m - length_m(*road_), 0.0f);
+      const float x_m = here.x_m + there.x_m + beyond_m * cosine(end_heading_rad()), y_m = here.y_m + there.y_m + beyond_m * sine(end_heading_rad());
+      task.course[task.pieces++] = {angle_of(x_m, y_m), square_root(x_m * x_m + y_m * y_m)};
+    }
+    const Task rest = task_along(*road_, body_, driven_m + ahead_m);
+    bool room = true;
+    for (std::size_t i = 0; i < rest.pieces && room; ++i) room = append(task, rest.course[i]);
+    const bool near_end = here.along_m + ahead_m + kRejoin_m * size > end_of_course_m(*road_, body_);
+    if (room && near_end) static_cast<void>(append(task, {end_heading_rad(), kRejoin_m * size}));   // it crosses the stop line at a right angle
     return task;
   }
+  /// The direction in which the road reaches its end; it must be known.
+  [[nodiscard]] constexpr float end_heading_rad() const noexcept { return road_->course[road_->pieces - 1].heading_rad; }
 
  private:
   [[nodiscard]] constexpr float x_m() const noexcept { return body_.size * reckoning_.at.x_m; }
@@ -197,11 +268,14 @@ class OnRoad {
   static constexpr float kFacesAlong_rad = 0.25f, kBendShows_rad = 0.5f;   ///< the heading tells a sharper bend from straight on
   static constexpr float kLargestShift_m = 0.3f;   ///< a line farther aside is not that of this road
   static constexpr float kShiftTau_s = 0.5f;
+  static constexpr float kSeeks_m = 0.3f, kOneInOne_rad = 0.25f * kPi;   ///< to either side, in search of a line from which it was pushed away
+  static constexpr float kFarOff_m = 0.35f;
+  static constexpr float kStillBeside_m = 0.08f, kNoticed_m = 0.12f, kStopLineEnds_m = 0.45f;
 
   Body body_, small_;                          ///< the robot's own; the same of size 1
   Reckoning reckoning_{};
   const MapRoad* road_ = nullptr;
-  bool started_ = false;
+  bool started_ = false, turned_away_ = false;
   float middle_x_m_ = 0.0f, middle_y_m_ = 0.0f;   ///< of the crossing that it entered last, in the reckoning's frame
   float x_m_ = 0.0f, y_m_ = 0.0f;    ///< the middle of the road's first crossing, in the reckoning's frame
   float entered_m_ = 0.0f;           ///< how far along the robot was when it entered the road, or came about

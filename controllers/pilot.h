@@ -21,6 +21,7 @@
 
 #include "../runtime/control_line.h"
 #include "any_controller.h"
+#include "line_seeker.h"
 #include "on_road.h"
 #include "road_map.h"
 #include "similarity.h"
@@ -66,10 +67,11 @@ class Pilot {
     const Senses& steady = heard_;
     place_.step(steady, sane_period(dt));
     if (!crossed_) place_.settle(steady, sane_period(dt));
+    const bool found = seeker_.step(steady, place_, controller_.id(), follows_, crossed_);
     if (line_ != running_) begin(steady);
-    else if (knows_no_more()) start(steady);
+    else if (found || knows_no_more()) start(steady);
     if (follows_ && place_.travelled_m() - followed_m_ > kForgets_m * size()) suspended_line_ = nullptr;
-    if (follows_) came_rad_ = place_.heading_rad(), came_m_ = place_.travelled_m();
+    if (follows_) came_rad_ = place_.heading_rad(), came_m_ = place_.travelled_m(), beside_m_ = greatest(beside_m_ - place_.way_m(), 0.0f);
     if (suspended_line_ != nullptr) {
       Senses reckons = steady;
       reckons.line_known = false;
@@ -103,13 +105,15 @@ class Pilot {
   [[nodiscard]] static constexpr bool is_manoeuvre(ControllerId id) noexcept { return id == Id::kTurnOnLine || id == Id::kTurnByWalls || id == Id::kTurnByCompass; }
   [[nodiscard]] static constexpr bool follows(ControllerId id) noexcept { return !is_manoeuvre(id) && id != Id::kStand && id != Id::kRoundObstacle && id != Id::kTurnRound && id != Id::kLookRound; }
   /// Where a robot is to face that turns round on its road: back along it, or along it if it faces back already and the leg does not lead there.
-  /// False: it is in a crossing, on an unknown road, or faces neither way.
+  /// False: it is in a crossing, on an unknown road, or near a bend and faces neither way.
   [[nodiscard]] bool is_to_face(float& heading_rad) const noexcept {
-    if (crossed_ || !(place_.faces_along() || place_.faces_back())) return false;
+    if (crossed_ || place_.road() == nullptr || !(place_.faces_along() || place_.faces_back() || place_.clear_of_bend())) return false;
     const bool turns_back = way_round() != nullptr || !place_.faces_back();
     heading_rad = wrapped_angle(place_.spot().heading_rad + (turns_back ? kPi : 0.0f));
     return true;
   }
+  /// Whether the line of its road is somewhere beside it: see note [pushed aside].
+  [[nodiscard]] bool beside_line() const noexcept { return seeker_.gone(); }
   /// What a sign says of the crossing ahead: the road that leaves it by the side from which the robot comes; null: unknown. It counts where the
   /// robot did not come by the road of its last leg, as at the first crossing of a mission.
   void arrives_from(const MapRoad* road) noexcept { behind_ = road; }
@@ -140,10 +144,12 @@ class Pilot {
     set_down_ = false;
     roads_.forget();
     place_.forget();
+    seeker_.forget();
     suspended_line_ = running_ = nullptr;
     controller_.choose(Id::kStand, body_);   // if nothing is chosen any more, nothing begins either
     crossed_ = left_ = drives_ = changed_ = follows_ = false;
     came_m_ = -kInfinity;
+    beside_m_ = 0.0f;
     told_m_ = kInfinity;
   }
 
@@ -187,6 +193,7 @@ class Pilot {
       controller_ = suspended_;
       suspended_line_ = nullptr;
       drives_ = true;
+      seeker_.begin(controller_.id());
       if (is_manoeuvre(controller_.id())) crossed_ = true;
       follows_ = follows(controller_.id());
       followed_m_ = place_.travelled_m();
@@ -195,6 +202,7 @@ class Pilot {
     drives_ = line_ != nullptr && bind(controller_, *line_) == Setting::kSet;
     if (line_ != nullptr && !drives_) left_ = false;   // a controller of the program's own may go anywhere
     if (!drives_) return controller_.choose(Id::kStand, body_);
+    seeker_.begin(controller_.id());
     start(senses);
   }
   /// A manoeuvre that is over is kept as well: the rules may not have noticed, and it is not to be driven again.
@@ -230,8 +238,9 @@ class Pilot {
     if (id == Id::kRoundObstacle) {
       if (crossed_ || place_.road() == nullptr) return {};
       turn_back_if_leg_does();
+      beside_m_ = kBackInMiddle_m * size();
       if (same_text(place_.road()->by, "dist")) return {};   // walls show where the road bends
-      return place_.faces_back() ? Task{} : place_.task(false);
+      return place_.faces_back() ? Task{} : place_.task(place_.far_off() ? OnRoad::Back::kToMiddle : OnRoad::Back::kNever);
     }
     if (!follows(id)) return {};
     follow_road(senses);
@@ -242,7 +251,8 @@ class Pilot {
     }
     if (place_.road() == nullptr || (place_.faces_back() && !crosses_hall(*place_.road()))) return {};   // in a hall it may face anywhere
     if (id == Id::kHoldHeading) shorten_overrun();
-    return place_.task(id == Id::kHoldHeading);
+    if (id != Id::kHoldHeading) return place_.task(OnRoad::Back::kNever);
+    return place_.task(seeker_.seeks(place_) ? OnRoad::Back::kToLine : OnRoad::Back::kToMiddle);
   }
   [[nodiscard]] Task across(const Senses& senses) noexcept {
     suspended_line_ = nullptr;
@@ -253,8 +263,11 @@ class Pilot {
     const Body body = as_.out(body_);
     const Arrival arrival = arrives(senses, body);
     to_middle_m_ = arrival.line_m;
-    place_.enter_crossing(arrival.heading_known ? arrival.heading_rad : place_.heading_rad(), arrival.line_m);
-    return task_across(arrival, roads_.road(), body);
+    const float in_rad = arrival.heading_known ? arrival.heading_rad : place_.heading_rad(), left_m = beside_m_ > 0.0f ? place_.left_of_end_m(in_rad) : 0.0f;
+    place_.enter_crossing(in_rad, arrival.line_m, left_m);
+    Task task = task_across(arrival, roads_.road(), body);
+    task.entry_left_m = left_m;
+    return task;
   }
   /// By the road of its last leg; by that which the sign says, if it did not come by the other, whatever carried it here; or as it last drove, since it
   /// may have looked round.
@@ -289,6 +302,7 @@ class Pilot {
       if (left_ || road == nullptr || !knows_frame) place_.enter(road, senses);
       else place_.enter_aside(*road);
       entered_m_ = -kInfinity;   // it is through
+      beside_m_ = 0.0f;
     } else {
       turn_back_if_leg_does();
     }
@@ -348,7 +362,7 @@ class Pilot {
 
   [[nodiscard]] float size() const noexcept { return as_.out(1.0f, "m"); }
 
-  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f, kEndless_m = 1e3f;
+  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f, kEndless_m = 1e3f, kBackInMiddle_m = 1.0f;
 
   Similarity as_;
   Body body_;                                 // of size 1, as the controllers know it
@@ -360,6 +374,7 @@ class Pilot {
   RoadsDriven roads_;
   const MapRoad *behind_ = nullptr, *back_ = nullptr;   // see arrives_from, can_turn_back
   OnRoad place_;
+  LineSeeker seeker_;
   float limit_m_s_ = kInfinity;
   float told_m_ = kInfinity;                  // how far along its road the robot gets without being told more
   bool drives_ = false;
@@ -367,6 +382,7 @@ class Pilot {
   float set_down_rad_ = 0.0f;
   float entered_m_ = 0.0f, followed_m_ = 0.0f;   // what it had travelled when the last manoeuvre began, and when it last began to follow a road
   float to_middle_m_ = 0.0f;
+  float beside_m_ = 0.0f;                     // how far it has yet to follow its road to be in its middle again, after going round something
   float came_rad_ = 0.0f, came_m_ = -kInfinity;   // its heading when it last followed a road, and what it had travelled then
   bool follows_ = false;                      // the controller follows a road
   bool crossed_ = false;                      // a manoeuvre has run since the robot last followed a road

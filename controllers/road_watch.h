@@ -104,7 +104,7 @@ class RoadWatch {
   // ---- the sign
   [[nodiscard]] At at() const noexcept { return at_; }
   /// "" if it is at none. Only a sign that was read for a quarter of a second counts.
-  [[nodiscard]] const char* landmark() const noexcept { return turned_from_sign_ || !believed() ? "" : sign_.landmark; }
+  [[nodiscard]] const char* landmark() const noexcept { return turned_from_sign_ || (set_down_ && at_ == At::kLeaving) || !believed() ? "" : sign_.landmark; }
   /// What it says; only the last sign that was believed counts.
   [[nodiscard]] const SignRead& sign() const noexcept { return sign_; }
   /// Falls with the way since it was read.
@@ -193,6 +193,7 @@ class RoadWatch {
     if (id_ == ControllerId::kTurnRound) {
       round_rad_ = 0.0f;
       turned_back_ = true;
+      met_line_ = waits_at_line_ = false;
       knows_way_back_ = pilot.is_to_face(way_back_rad_);
     }
   }
@@ -242,8 +243,9 @@ class RoadWatch {
       if (at_ != At::kApproach) sign_ = {};   // it crosses without a sign
       at_ = At::kCrossing;
       since_m_ = 0.0f;
-      turned_back_ = false;
+      turned_back_ = begins_on_road_ = false;
     }
+    if (leaves_) beside_m_ = 0.0f;   // it begins in the middle of another road
     if (leaves_ && at_ == At::kCrossing) {
       at_ = At::kLeaving;
       since_m_ = unread_s_ = 0.0f;
@@ -313,7 +315,7 @@ class RoadWatch {
     const bool blocked = rounding_ && on_track(pilot.place());
     clear_s_ = blocked ? 0.0f : clear_s_ + dt;
     obstacle_ = !senses_.range_known ? 0.0f : obstacle_sight_.held_up() ? kSure : rounding_ ? sure(blocked) : obstacle_sight_.ahead(surroundings());
-    look_at_track();
+    look_at_track(pilot);
   }
   /// Whether something that a range finder sees stands on the track, not far ahead.
   [[nodiscard]] bool on_track(const OnRoad& place) const noexcept {
@@ -338,13 +340,14 @@ class RoadWatch {
   }
 
   /// Whether what the robot sees now cannot be its road, and whether it is too far beside the road for the compass to lead it.
-  void look_at_track() noexcept {
+  void look_at_track(const Pilot& pilot) noexcept {
     const bool enters = !crosses_ && (rounding_ || beside_m_ > 0.0f) && passed_end_;   // beside the road, past its stop line: in a crossing that it may not enter
     const float off_rad = avoids_ && road_ != nullptr && !driven_by("dist") ? magnitude(wrapped_angle(here_.heading_rad - spot_.heading_rad)) : road_turned_rad_;
     const bool on_road = !crosses_ && road_ != nullptr && (rounding_ || at_ == At::kNowhere);
     elsewhere_ = enters || (on_road && off_rad > (avoids_ ? kAlong_rad : kAcross_rad));
     const bool rounds = rounding_ && clear_s_ < kClear_s;   // the obstacle may still be between it and the road
-    beside_ = on_road && beside_road_m_ > (rounds ? kAside_m : kRoadOff_m);
+    const bool seeks = pilot.beside_line() && clear_s_ >= kClear_s;   // see note [pushed aside]
+    beside_ = on_road && beside_road_m_ > (rounds ? kAside_m : seeks ? kComesBack_m : kRoadOff_m);
   }
   /// A compass says where east is, not where the road lies. It can lead the robot along a road of the map, in the direction in which a robot
   /// that was carried was set down, and, as long as there was nothing else to follow, in that in which it was put at the start.
@@ -355,7 +358,7 @@ class RoadWatch {
   [[nodiscard]] float in_m(float length_m) const noexcept { return as_.in(length_m, "m"); }
 
   static constexpr float kBehind_m = ObstacleSight::kBehind_m;
-  static constexpr float kRoadOff_m = 0.35f, kAside_m = 0.12f, kBackInMiddle_m = 1.0f, kLineBehind_m = 0.3f;
+  static constexpr float kRoadOff_m = 0.35f, kComesBack_m = 0.8f, kAside_m = 0.12f, kBackInMiddle_m = 1.0f, kLineBehind_m = 0.3f;
   static constexpr float kStarReaches_m = 0.1f, kApart_m = 0.35f;
   static constexpr float kDue_m = 0.35f, kPassedEnd_m = 0.12f, kDrift = 0.03f;
   static constexpr float kAlong_rad = 0.7f, kAcross_rad = 1.3f, kTurnedTo_rad = 0.17f, kHalfTurn_rad = 2.96f, kClear_s = 4.0f;

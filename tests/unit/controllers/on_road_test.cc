@@ -57,18 +57,18 @@ TEST(OnRoad, IsNowhereThatTheRobotCannotHaveReached) {
 
 TEST(OnRoad, ATaskLeadsBackToTheMiddleOrRunsBesideIt) {
   const OnRoad place = moved(kElbowOut, 1.0f, 0.2f);
-  const Task beside = place.task(false), back = place.task(true);
+  const Task beside = place.task(OnRoad::Back::kNever), back = place.task(OnRoad::Back::kToMiddle);
   ASSERT_EQ(beside.pieces, 2);
   EXPECT_NEAR(beside.course[0].length_m, 1.7f, 0.01f);
   ASSERT_EQ(back.pieces, 3);
   EXPECT_NEAR(back.course[0].heading_rad, angle_of(0.35f, -0.2f), 0.03f);
   EXPECT_NEAR(back.course[1].length_m, 1.35f, 0.01f);
   EXPECT_NEAR(back.course[2].length_m, 3.6f, 0.01f);
-  EXPECT_EQ(moved(kElbowOut, 1.0f, 0.01f).task(true).pieces, 2) << "so near the middle nothing leads back";
+  EXPECT_EQ(moved(kElbowOut, 1.0f, 0.01f).task(OnRoad::Back::kToMiddle).pieces, 2) << "so near the middle nothing leads back";
 }
 
 TEST(OnRoad, TheDoorsOfAHallAreSeenFromTheRobot) {
-  const Task task = moved(kElbowHall, 1.0f, 0.2f).task(true);
+  const Task task = moved(kElbowHall, 1.0f, 0.2f).task(OnRoad::Back::kToMiddle);
   ASSERT_TRUE(task.in_hall);
   EXPECT_NEAR(task.in.x_m, -0.9f, 0.01f);
   EXPECT_NEAR(task.in.y_m, -0.2f, 0.01f);
@@ -83,7 +83,7 @@ TEST(OnRoad, TurnedBackItCountsFromTheOtherEnd) {
   EXPECT_FALSE(place.faces_back());
   EXPECT_EQ(place.road(), &kWayBack);
   EXPECT_NEAR(place.spot().along_m, 3.0f, 0.01f);
-  const Task task = place.task(true);
+  const Task task = place.task(OnRoad::Back::kToMiddle);
   ASSERT_EQ(task.pieces, 2);
   EXPECT_NEAR(task.course[0].length_m, 1.0f, 0.01f);
   EXPECT_NEAR(task.course[1].length_m, 2.6f, 0.01f);
@@ -92,10 +92,10 @@ TEST(OnRoad, TurnedBackItCountsFromTheOtherEnd) {
 TEST(OnRoad, OfAnUnknownRoadNothingIsTold) {
   OnRoad place(kCart);
   EXPECT_EQ(place.road(), nullptr);
-  EXPECT_EQ(place.task(true).pieces, 0);
+  EXPECT_EQ(place.task(OnRoad::Back::kToMiddle).pieces, 0);
   EXPECT_FALSE(place.faces_back());
   place.enter(nullptr, {});
-  EXPECT_EQ(place.task(true).pieces, 0);
+  EXPECT_EQ(place.task(OnRoad::Back::kToMiddle).pieces, 0);
 }
 
 /// Drives `length_m` on with the road's line `line_left_m` to the left of the robot's axis.
