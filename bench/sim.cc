@@ -64,14 +64,12 @@ BENCHMARK(Recorded)->Unit(benchmark::kMillisecond);
 /// The parts of a robot on the road from LM1 to LM5.
 struct Parts {
   Parts() : arena(*route1().labyrinth, route1().scenario->start), floor(*route1().labyrinth), wheels({}, 1), sensors({}, 1),
-            perception(route1().knowledge->facts), pilot(*route1().knowledge), mind(*route1().knowledge) {}
+            driver(*route1().knowledge, *route1().labyrinth, sim::kRobot) {}
   sim::Arena arena;
   sim::Floor floor;
   sim::DriveTrain wheels;
   sim::Sensors sensors;
-  sim::Perception perception;
-  sim::Pilot pilot;
-  sim::Mind mind;
+  sim::Driver driver;
 };
 
 void Physics(benchmark::State& state) {
@@ -92,21 +90,20 @@ void Control(benchmark::State& state) {
   mts::Senses senses;
   sim::TagHeard tag;
   for (int i = 1; i < 20; ++i) p.sensors.sample(i * 10'000, p.arena, p.floor, p.wheels, 0.01);
-  p.pilot.choose(static_cast<int>(route1().knowledge->strategies.size()) - 1, p.perception, senses);
+  p.driver.mind().press(route1().knowledge->missions.front().command, sim::Mind::kHeld);
+  for (int i = 1; i < 3; ++i) static_cast<void>(p.driver.tick(i * 100'000, 100'000));
   for (auto _ : state) {
     p.sensors.hear(200'000, senses);
     p.sensors.hear_tag(200'000, tag);
-    p.perception.hear(senses, tag, 0.02f);
-    benchmark::DoNotOptimize(p.pilot.step(senses, 0.02f));
+    benchmark::DoNotOptimize(p.driver.hear(senses, tag, 0.02f));
   }
 }
 BENCHMARK(Control);
 
 void Think(benchmark::State& state) {
   Parts p;
-  mts::Senses senses;
   std::int64_t now_us = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(&p.mind.tick(p.perception, senses, now_us += 100'000, 100'000));
+  for (auto _ : state) benchmark::DoNotOptimize(&p.driver.tick(now_us += 100'000, 100'000));
 }
 BENCHMARK(Think);
 

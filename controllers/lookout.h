@@ -21,8 +21,7 @@
 //   Due           the road ends here, by the map                     Turned         faces back along its road
 //   Carried       compass and wheels, or compass and map, disagree   Trapped, NoWay the controller that crosses a hall
 //
-// They mean the same as in `kbc sim` and `kbc drive`, which know roads by what signs remember; here the map tells them. A robot that was
-// pushed beside its line does not look for it to both sides, as it does there.
+// The drivers of `kbc sim` and `kbc drive` are a lookout and a pilot too.
 #pragma once
 
 #include "road_watch.h"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The program of examples/11_own_program drives the simulated robot through what can happen on a mission, on the map of the example and on one
-whose roads lie at all angles. It has to come to its goal, and to touch nothing, wherever kbc's own mind does: both perceive the same, one by what
-tags remember, the other by the map.
+whose roads lie at all angles. It has to come to its goal, and to touch nothing, wherever kbc's own driver does, which perceives and drives by the same
+headers.
 
   own_program.py KBC SOURCE PROGRAM PROGRAM_OF_EIGHT_SIDES
 """
