@@ -21,8 +21,7 @@
 //   Due           the road ends here, by the map                     Turned         faces back along its road
 //   Carried       compass and wheels, or compass and map, disagree   Trapped, NoWay the controller that crosses a hall
 //
-// They mean the same as in `kbc sim` and `kbc drive`, which know roads by what signs remember; here the map tells them. A robot that was
-// pushed beside its line does not look for it to both sides, as it does there.
+// They mean the same as in `kbc sim` and `kbc drive`, which know roads by what signs remember; here the map tells them.
 #pragma once
 
 #include "road_watch.h"
@@ -75,7 +74,11 @@ class Lookout {
   void step(Pilot& pilot, const Sign& sign, float dt_s) noexcept {
     const SignRead* const read = take(sign);
     watch_.step(pilot, read, dt_s);
-    if (find_road_ && approaches()) tell_arrival(pilot, watch_.sign().landmark, side_from());
+    if (!find_road_) return;
+    if (approaches()) tell_arrival(pilot, watch_.sign().landmark, side_from());
+    const bool learns = read != nullptr && watch_.at() == RoadWatch::At::kLeaving && pilot.is_set_down() && pilot.place().road() == nullptr;
+    const MapRoad* const road = learns ? find_road_(read->landmark, read->exit) : nullptr;
+    if (road != nullptr) pilot.learn_road(*road);
   }
   /// Before each tick: writes the facts that the knowledge base has. Others keep their values.
   void write(Facts& facts) noexcept {

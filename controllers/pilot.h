@@ -65,7 +65,8 @@ class Pilot {
     if (!crossed_) place_.settle(steady, sane_period(dt));
     const bool found = seeker_.step(steady, place_, controller_.id(), follows_, crossed_);
     if (line_ != running_) begin(steady);
-    else if (found || knows_no_more()) start(steady);
+    else if (found || learnt_ || knows_no_more()) start(steady);
+    learnt_ = false;
     if (follows_ && place_.travelled_m() - followed_m_ > kForgets_m * size()) suspended_line_ = nullptr;
     if (follows_) came_rad_ = place_.heading_rad(), came_m_ = place_.travelled_m(), beside_m_ = greatest(beside_m_ - place_.way_m(), 0.0f);
     if (suspended_line_ != nullptr) {
@@ -108,7 +109,7 @@ class Pilot {
     heading_rad = wrapped_angle(place_.spot().heading_rad + (turns_back ? kPi : 0.0f));
     return true;
   }
-  /// Whether the line of its road is somewhere beside it: see note [pushed aside].
+  /// Whether the line of its road is somewhere beside it: see note [beside its line].
   [[nodiscard]] bool beside_line() const noexcept { return seeker_.gone(); }
   /// What a sign says of the crossing ahead: the road that leaves it by the side from which the robot comes; null: unknown. It counts where the
   /// robot did not come by the road of its last leg, as at the first crossing of a mission.
@@ -125,6 +126,11 @@ class Pilot {
     forget_place();
     set_down_ = true;
     set_down_rad_ = heading_rad;
+  }
+  /// It has read the sign where this road begins, and drives away from it: then it knows its road, to some 30 cm.
+  void learn_road(const MapRoad& road) noexcept {
+    place_.put(road, line_out_m(road, as_.out(body_)));
+    learnt_ = follows_;
   }
   /// Whether it was, and has not entered a crossing since.
   [[nodiscard]] bool is_set_down() const noexcept { return set_down_; }
@@ -361,6 +367,7 @@ class Pilot {
   float limit_m_s_ = kInfinity;
   float told_m_ = kInfinity;                  // how far along its road the robot gets without being told more
   bool drives_ = false;
+  bool learnt_ = false;                       // see learn_road; the controller is to begin anew
   bool set_down_ = false;                     // facing so, and it has not entered a crossing since
   float set_down_rad_ = 0.0f;
   float entered_m_ = 0.0f, followed_m_ = 0.0f;   // what it had travelled when the last manoeuvre began, and when it last began to follow a road

@@ -337,7 +337,7 @@ class RoadWatch {
     const bool on_road = !crosses_ && road_ != nullptr && (rounding_ || at_ == At::kNowhere);
     elsewhere_ = enters || (on_road && off_rad > (avoids_ ? kAlong_rad : kAcross_rad));
     const bool rounds = rounding_ && clear_s_ < kClear_s;   // the obstacle may still be between it and the road
-    const bool seeks = pilot.beside_line() && clear_s_ >= kClear_s;   // see note [pushed aside]
+    const bool seeks = pilot.beside_line() && clear_s_ >= kClear_s;   // see note [beside its line]
     beside_ = on_road && beside_road_m_ > (rounds ? kAside_m : seeks ? kComesBack_m : kRoadOff_m);
   }
   /// A compass says where east is, not where the road lies. It can lead the robot along a road of the map, in the direction in which a robot
