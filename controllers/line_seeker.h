@@ -1,6 +1,6 @@
 // When a robot has lost the line of its road sidewards, and looks for it.
 //
-// note [pushed aside]
+// note [beside its line]
 // A robot that was touched may stand beside its road, and its wheels do not notice; one that went round something may come back a little
 // beside it. If the line is gone then, the robot looks for it to both sides while it goes on by compass, and begins anew where it has
 // crossed it.

@@ -80,7 +80,7 @@ class Lookout {
     if (!find_road_) return;
     if (approaches()) tell_arrival(pilot, watch_.sign().landmark, side_from());
     tell_way_back(pilot);
-    if (const MapRoad* road = way_out(); road != nullptr && watch_.moves()) pilot.has_left_by(*road);
+    if (const MapRoad* road = way_out(); road != nullptr && watch_.moves()) pilot.learn_road(*road);
   }
   /// Before each tick: writes the facts that the knowledge base has. Others keep their values.
   void write(Facts& facts) noexcept {
@@ -202,7 +202,7 @@ class Lookout {
   }
   /// The road on which the sign lies that the robot leaves behind; null: it leaves none behind, or not known.
   [[nodiscard]] const MapRoad* way_out() const noexcept {
-    if (!find_road_ || watch_.at() != RoadWatch::At::kLeaving || watch_.landmark()[0] == '\0' || watch_.sign().exit[0] == '\0') return nullptr;
+    if (!find_road_ || watch_.at() != RoadWatch::At::kLeaving || watch_.sign().landmark[0] == '\0' || watch_.sign().exit[0] == '\0') return nullptr;
     return find_road_(watch_.sign().landmark, watch_.sign().exit);
   }
   [[nodiscard]] bool approaches() const noexcept { return watch_.at() == RoadWatch::At::kApproach; }

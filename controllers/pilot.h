@@ -66,10 +66,11 @@ class Pilot {
     heard_ = mts::heard(steady_.step(as_.in(senses), dt), body_);
     const Senses& steady = heard_;
     place_.step(steady, sane_period(dt));
-    if (!crossed_) place_.settle(steady, sane_period(dt));
-    const bool found = seeker_.step(steady, place_, controller_.id(), follows_, crossed_);
+    if (!in_crossing()) place_.settle(steady, sane_period(dt));
+    const bool found = seeker_.step(steady, place_, controller_.id(), follows_, in_crossing());
     if (line_ != running_) begin(steady);
-    else if (found || knows_no_more()) start(steady);
+    else if (found || learnt_ || knows_no_more()) start(steady);
+    learnt_ = false;
     if (follows_ && place_.travelled_m() - followed_m_ > kForgets_m * size()) suspended_line_ = nullptr;
     if (follows_) came_rad_ = place_.heading_rad(), came_m_ = place_.travelled_m(), beside_m_ = greatest(beside_m_ - place_.way_m(), 0.0f);
     if (suspended_line_ != nullptr) {
@@ -92,7 +93,7 @@ class Pilot {
   /// The road of the present leg, as `choose` was told; null: unknown.
   [[nodiscard]] const MapRoad* road_of_leg() const noexcept { return roads_.road(); }
   /// Whether a manoeuvre has begun since the robot last followed a road, and how far it has driven since.
-  [[nodiscard]] bool in_crossing() const noexcept { return crossed_; }
+  [[nodiscard]] bool in_crossing() const noexcept { return crossed_ && !aside_; }
   [[nodiscard]] float crossed_m() const noexcept { return place_.travelled_m() - entered_m_; }
   /// From the stop line by which it entered its last crossing to the middle of that.
   [[nodiscard]] float to_middle_m() const noexcept { return to_middle_m_; }
@@ -107,22 +108,18 @@ class Pilot {
   /// Where a robot is to face that turns round on its road: back along it, or along it if it faces back already and the leg does not lead there.
   /// False: it is in a crossing, on an unknown road, or near a bend and faces neither way.
   [[nodiscard]] bool is_to_face(float& heading_rad) const noexcept {
-    if (crossed_ || place_.road() == nullptr || !(place_.faces_along() || place_.faces_back() || place_.clear_of_bend())) return false;
+    if (in_crossing() || place_.road() == nullptr || !(place_.faces_along() || place_.faces_back() || place_.clear_of_bend())) return false;
     const bool turns_back = way_round() != nullptr || !place_.faces_back();
     heading_rad = wrapped_angle(place_.spot().heading_rad + (turns_back ? kPi : 0.0f));
     return true;
   }
-  /// Whether the line of its road is somewhere beside it: see note [pushed aside].
+  /// Whether the line of its road is somewhere beside it: see note [beside its line].
   [[nodiscard]] bool beside_line() const noexcept { return seeker_.gone(); }
   /// What a sign says of the crossing ahead: the road that leaves it by the side from which the robot comes; null: unknown. It counts where the
   /// robot did not come by the road of its last leg, as at the first crossing of a mission.
   void arrives_from(const MapRoad* road) noexcept { behind_ = road; }
   /// The road that it is on, in the other direction; null: unknown. It counts where the robot turns round and no leg says where that leads.
   void can_turn_back(const MapRoad* road) noexcept { back_ = road; }
-  /// A sign says that it has just left a crossing by `road`. It counts if the robot did not know where it was.
-  void has_left_by(const MapRoad& road) noexcept {
-    if (place_.road() == nullptr && !crossed_) place_.put(road, line_out_m(road, as_.out(body_)));
-  }
   /// For programs with controllers of their own: to be called once, where one of them has driven through a crossing and stands on the line out.
   void leave_crossing() noexcept { crossed_ = left_ = true; }
   /// For robots that begin in the middle of a road, `along_m` from the middle of the crossing where it begins. They need a compass.
@@ -136,6 +133,12 @@ class Pilot {
     set_down_ = true;
     set_down_rad_ = heading_rad;
   }
+  /// It has read the sign where this road begins, and drives away from it. If it did not know its road, now it does, to some 30 cm.
+  void learn_road(const MapRoad& road) noexcept {
+    if (place_.road() != nullptr || in_crossing()) return;
+    place_.put(road, line_out_m(road, as_.out(body_)));
+    learnt_ = follows_;
+  }
   /// Whether it was, and has not entered a crossing since.
   [[nodiscard]] bool is_set_down() const noexcept { return set_down_; }
   /// The robot was carried: it is on an unknown road, and what was interrupted is not continued. The controller that drives begins afresh, so
@@ -147,7 +150,7 @@ class Pilot {
     seeker_.forget();
     suspended_line_ = running_ = nullptr;
     controller_.choose(Id::kStand, body_);   // if nothing is chosen any more, nothing begins either
-    crossed_ = left_ = drives_ = changed_ = follows_ = false;
+    crossed_ = left_ = aside_ = drives_ = changed_ = follows_ = false;
     came_m_ = -kInfinity;
     beside_m_ = 0.0f;
     told_m_ = kInfinity;
@@ -203,6 +206,10 @@ class Pilot {
     if (line_ != nullptr && !drives_) left_ = false;   // a controller of the program's own may go anywhere
     if (!drives_) return controller_.choose(Id::kStand, body_);
     seeker_.begin(controller_.id());
+    if (controller_.id() == Id::kRoundObstacle && at_way_out()) {
+      place_.put(*roads_.road(), begin_of_course_m(*roads_.road(), as_.out(body_)) - greatest(to_line_out_m(), 0.0f));
+      aside_ = true;
+    }
     start(senses);
   }
   /// A manoeuvre that is over is kept as well: the rules may not have noticed, and it is not to be driven again.
@@ -236,7 +243,7 @@ class Pilot {
     if (is_manoeuvre(id)) return across(senses);
     if (id == Id::kTurnRound) return round();
     if (id == Id::kRoundObstacle) {
-      if (crossed_ || place_.road() == nullptr) return {};
+      if (in_crossing() || place_.road() == nullptr) return {};
       turn_back_if_leg_does();
       beside_m_ = kBackInMiddle_m * size();
       if (same_text(place_.road()->by, "dist")) return {};   // walls show where the road bends
@@ -257,8 +264,7 @@ class Pilot {
   [[nodiscard]] Task across(const Senses& senses) noexcept {
     suspended_line_ = nullptr;
     crossed_ = true;
-    set_down_ = false;
-    left_ = false;
+    set_down_ = left_ = aside_ = false;
     entered_m_ = place_.travelled_m();
     const Body body = as_.out(body_);
     const Arrival arrival = arrives(senses, body);
@@ -299,15 +305,16 @@ class Pilot {
     const MapRoad* road = roads_.road();
     if (crossed_ && went_through) {
       const bool knows_frame = senses.heading_known || place_.road() != nullptr;
-      if (left_ || road == nullptr || !knows_frame) place_.enter(road, senses);
-      else place_.enter_aside(*road);
+      const bool on_it = aside_ && road != nullptr && place_.road() == road;
+      if (!on_it && (left_ || road == nullptr || !knows_frame)) place_.enter(road, senses);
+      else if (!on_it) place_.enter_aside(*road);
       entered_m_ = -kInfinity;   // it is through
-      beside_m_ = 0.0f;
+      if (!on_it) beside_m_ = 0.0f;
     } else {
       turn_back_if_leg_does();
     }
     if (suspended_line_ != nullptr && !manoeuvre) suspended_line_ = nullptr;
-    crossed_ = left_ = false;
+    crossed_ = left_ = aside_ = false;
     follows_ = true;
     followed_m_ = place_.travelled_m();
   }
@@ -357,12 +364,20 @@ class Pilot {
   /// Whether the robot has driven so far since the last manoeuvre began that it must have been through the middle of its crossing.
   [[nodiscard]] bool past_middle() const noexcept { return crossed_m() > to_middle_m_; }
 
+  /// By the way driven in the crossing, from the row of line sensors to the line out.
+  [[nodiscard]] float to_line_out_m() const noexcept { return to_middle_m_ + line_out_m(*roads_.road(), as_.out(body_)) - crossed_m(); }
+  /// Whether what stands ahead stands on the line out of the crossing, or behind it: see note [an obstacle behind the way out].
+  [[nodiscard]] bool at_way_out() const noexcept {
+    if (!in_crossing() || suspended_line_ == nullptr || !is_manoeuvre(suspended_.id()) || roads_.road() == nullptr) return false;
+    return to_line_out_m() < kWayOut_m * size() && magnitude(wrapped_angle(place_.heading_rad() - roads_.road()->course[0].heading_rad)) < kAlong_rad;
+  }
+
   /// Whether the controller comes to the end of what it was told of a road with more bends than a task has room for.
   [[nodiscard]] bool knows_no_more() const noexcept { return place_.road() != nullptr && told_m_ < kInfinity && place_.spot().along_m > told_m_; }
 
   [[nodiscard]] float size() const noexcept { return as_.out(1.0f, "m"); }
 
-  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f, kEndless_m = 1e3f, kBackInMiddle_m = 1.0f;
+  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f, kEndless_m = 1e3f, kBackInMiddle_m = 1.0f, kWayOut_m = 0.2f, kAlong_rad = 0.5f;
 
   Similarity as_;
   Body body_;                                 // of size 1, as the controllers know it
@@ -378,6 +393,7 @@ class Pilot {
   float limit_m_s_ = kInfinity;
   float told_m_ = kInfinity;                  // how far along its road the robot gets without being told more
   bool drives_ = false;
+  bool learnt_ = false;                       // see learn_road; the controller is to begin anew
   bool set_down_ = false;                     // facing so, and it has not entered a crossing since
   float set_down_rad_ = 0.0f;
   float entered_m_ = 0.0f, followed_m_ = 0.0f;   // what it had travelled when the last manoeuvre began, and when it last began to follow a road
@@ -387,6 +403,7 @@ class Pilot {
   bool follows_ = false;                      // the controller follows a road
   bool crossed_ = false;                      // a manoeuvre has run since the robot last followed a road
   bool left_ = false;                         // and nothing has moved the robot since it ended
+  bool aside_ = false;                        // but it goes round something at the way out, as on the road of its exit
   bool changed_ = false;                      // the leg has, since the controller began
 };
 static_assert(sizeof(Pilot) <= 15000);

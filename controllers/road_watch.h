@@ -9,26 +9,21 @@
 // A robot that brakes at a stop line comes to rest with the line just behind its sensors. If its mission ends there, and the next one begins
 // there, the mind must be told of the line: else it would drive across as on a road. And if a mission ends just out of a crossing, the line
 // out may lie under its sensors: that is no line to stop at.
+//
+// note [an obstacle behind the way out]
+// The robot meets an obstacle that stands just behind the line out of a crossing before it meets that line. It goes round it as on the road of its
+// exit. As it turns, its row sweeps over the line out and over others: so on the way round, the line out counts as passed only when the robot
+// itself is well behind it. If it finds no way round, it is still in the crossing.
 #pragma once
 
 #include "lifted.h"
 #include "liveness.h"
 #include "obstacle_sight.h"
 #include "pilot.h"
+#include "sign_read.h"
 #include "stop_line.h"
 
 namespace mts {
-
-/// What a sign says, by names of the knowledge base: static text, "" if unknown.
-struct SignRead {
-  const char* landmark = "";
-  const char* exit = "";            ///< the side of the landmark on whose road the sign lies
-  float exit_rad = 0.0f;            ///< direction of that side as seen from the landmark, if it is named after a point of the compass
-  bool exit_rad_known = false;
-  std::uint32_t fact = 0;           ///< the landmark's, in the numbering of whoever writes facts; so are the bits below
-  bool safe = true;
-  std::uint64_t closed = 0, cross_by = 0;
-};
 
 /// Takes no heap. One object belongs to one thread at a time; it may be copied.
 class RoadWatch {
@@ -57,6 +52,7 @@ class RoadWatch {
     guided_ = guided_ || (moves_ && road_ == nullptr && (id_ == ControllerId::kFollowLine || id_ == ControllerId::kKeepWall));
     given_up_ = given_up_ || (moves_ && id_ == ControllerId::kHoldHeading && pilot.lost());
     line_.step(senses_, dt, rounds_to_end());
+    hear_line_out();
     met_line_ = at_ == At::kApproach && (met_line_ || line_.now());
     line_seen_ = line_seen_ || (line_.now() && line_counts());
     hear_range(pilot, dt);
@@ -218,7 +214,7 @@ class RoadWatch {
     pilot.forget_place();
     lifted_.forget();
     road_ = nullptr;
-    rounding_ = guided_ = crosses_ = turned_back_ = met_line_ = begins_on_road_ = false;
+    rounding_ = guided_ = crosses_ = turned_back_ = met_line_ = begins_on_road_ = awaits_out_ = false;
     beside_m_ = 0.0f;
   }
   /// Between two missions somebody may carry the robot to where the next one is to begin, and its wheels do not notice.
@@ -243,9 +239,10 @@ class RoadWatch {
       if (at_ != At::kApproach) sign_ = {};   // it crosses without a sign
       at_ = At::kCrossing;
       since_m_ = 0.0f;
-      turned_back_ = begins_on_road_ = false;
+      turned_back_ = begins_on_road_ = awaits_out_ = out_told_ = false;
     }
-    if (leaves_) beside_m_ = 0.0f;   // it begins in the middle of another road
+    if (leaves_ && rounding_) awaits_out_ = !out_told_;
+    else if (leaves_) beside_m_ = 0.0f;   // it begins in the middle of another road
     if (leaves_ && at_ == At::kCrossing) {
       at_ = At::kLeaving;
       since_m_ = unread_s_ = 0.0f;
@@ -303,9 +300,20 @@ class RoadWatch {
   /// Around the middle of a crossing the lines of several roads can be as dark as a stop line; and on the way round something its row may
   /// sweep over the line behind which its road began.
   [[nodiscard]] bool line_counts() const noexcept {
+    if (awaits_out_) return false;
     if (crosses_) return crossed_m_ > to_middle_m_ + greatest(kStarReaches_m, stop_line_m(leg_ != nullptr ? leg_->begins_apart_rad : kPi, body_) - kApart_m);
     return !((rounding_ || beside_m_ > 0.0f || begins_on_road_) && road_ != nullptr && !turned_back_ && along_m_ < kLineBehind_m);
   }
+
+  /// See note [an obstacle behind the way out].
+  void hear_line_out() noexcept {
+    const bool passes = awaits_out_ && (rounding_ ? along_m_ > kPassedRound_m : along_m_ > kPassed_m || line_.now());
+    line_seen_ = line_seen_ || passes;
+    out_told_ = out_told_ || passes || (at_ != At::kApproach && line_.now() && line_counts());
+    awaits_out_ = awaits_out_ && !passes;
+  }
+  /// Nothing else ends the way round there; elsewhere the track that the robot follows along the road ends it.
+  [[nodiscard]] bool back_on_road() const noexcept { return !awaits_out_ || (beside_road_m_ < kAside_m && road_turned_rad_ < kAlongRoad_rad); }
 
   [[nodiscard]] Surroundings surroundings() const noexcept {
     return {crosses_, driven_by("dist") && to_bend_m_ < kBendNear_m, at_ == At::kLeaving, at_ == At::kApproach && due_};
@@ -314,7 +322,7 @@ class RoadWatch {
     obstacle_sight_.step(senses_, (moves_ || Pilot::is_manoeuvre(id_)) && line_driven_ != nullptr && !in_hall(), way_m_, turned_rad_, dt);
     const bool blocked = rounding_ && on_track(pilot.place());
     clear_s_ = blocked ? 0.0f : clear_s_ + dt;
-    obstacle_ = !senses_.range_known ? 0.0f : obstacle_sight_.held_up() ? kSure : rounding_ ? sure(blocked) : obstacle_sight_.ahead(surroundings());
+    obstacle_ = !senses_.range_known ? 0.0f : obstacle_sight_.held_up() ? kSure : rounding_ ? sure(blocked || !back_on_road()) : obstacle_sight_.ahead(surroundings());
     look_at_track(pilot);
   }
   /// Whether something that a range finder sees stands on the track, not far ahead.
@@ -346,7 +354,7 @@ class RoadWatch {
     const bool on_road = !crosses_ && road_ != nullptr && (rounding_ || at_ == At::kNowhere);
     elsewhere_ = enters || (on_road && off_rad > (avoids_ ? kAlong_rad : kAcross_rad));
     const bool rounds = rounding_ && clear_s_ < kClear_s;   // the obstacle may still be between it and the road
-    const bool seeks = pilot.beside_line() && clear_s_ >= kClear_s;   // see note [pushed aside]
+    const bool seeks = pilot.beside_line() && clear_s_ >= kClear_s;   // see note [beside its line]
     beside_ = on_road && beside_road_m_ > (rounds ? kAside_m : seeks ? kComesBack_m : kRoadOff_m);
   }
   /// A compass says where east is, not where the road lies. It can lead the robot along a road of the map, in the direction in which a robot
@@ -359,6 +367,7 @@ class RoadWatch {
 
   static constexpr float kBehind_m = ObstacleSight::kBehind_m;
   static constexpr float kRoadOff_m = 0.35f, kComesBack_m = 0.8f, kAside_m = 0.12f, kBackInMiddle_m = 1.0f, kLineBehind_m = 0.3f;
+  static constexpr float kPassedRound_m = 0.3f, kPassed_m = 0.05f, kAlongRoad_rad = 0.5f;
   static constexpr float kStarReaches_m = 0.1f, kApart_m = 0.35f;
   static constexpr float kDue_m = 0.35f, kPassedEnd_m = 0.12f, kDrift = 0.03f;
   static constexpr float kAlong_rad = 0.7f, kAcross_rad = 1.3f, kTurnedTo_rad = 0.17f, kHalfTurn_rad = 2.96f, kClear_s = 4.0f;
@@ -393,6 +402,7 @@ class RoadWatch {
   bool due_ = false, passed_end_ = false, paint_ = false, front_unknown_ = false, elsewhere_ = false, beside_ = false;
   bool line_seen_ = false, touched_ = false, guided_ = false, given_up_ = false, set_down_ = false, came_known_ = false;
   bool turned_back_ = false, turned_from_sign_ = false, knows_way_back_ = false, met_line_ = false, waits_at_line_ = false, begins_on_road_ = false;
+  bool awaits_out_ = false, out_told_ = true;  // the line out of its last crossing: it has yet to pass that, going round something; it has seen it
 };
 
 }  // namespace mts

@@ -237,6 +237,15 @@ TEST(Lookout, ARobotThatHasComeAboutFacesBackAlongItsRoad) {
   EXPECT_EQ(ride.facts.Turned, -0.9f) << "it turns round no longer";
 }
 
+TEST(Lookout, ARobotThatHasLookedRoundComesAboutToItsRoad) {
+  Ride ride;
+  ride.follow_road(1.5f);
+  ride.turn(0.4f * kPi);
+  ride.drive(&kComesAbout, &kByLine);
+  ride.turn(0.6f * kPi);
+  EXPECT_EQ(ride.facts.Turned, 0.9f);
+}
+
 TEST(Lookout, WhatStandsOnTheTrackIsAnObstacleWhereverTheRobotFaces) {
   Ride ride;
   ride.follow_road(1.0f);
@@ -314,6 +323,9 @@ TEST(Lookout, ARobotThatWasCarriedKnowsNoRoad) {
   EXPECT_EQ(ride.pilot.place().road(), nullptr);
   ride.go(0.3f, 1.0f);
   EXPECT_EQ(ride.facts.Carried, -0.9f) << "it is said for half a second";
+  ride.sign = {.landmark = "Arch", .exit = "N"};
+  ride.go(0.1f, 0.4f);
+  EXPECT_LE(ride.facts.Arch, 0.0f) << "it was set down facing away from that sign";
 }
 
 TEST(Lookout, ARobotThatRestsMayHaveBeenCarriedUnlessItIsNever) {

@@ -136,5 +136,48 @@ TEST(OnRoad, ARobotThatFacesAlongThePieceBehindABendHasPassedIt) {
   EXPECT_NEAR(place.spot().left_m, 0.0f, 0.02f);
 }
 
+TEST(OnRoad, ATaskThatSeeksTheLineZigzagsAboutTheMiddle) {
+  const Task task = moved(kMarked, 0.5f, 0.1f).task(OnRoad::Back::kToLine);
+  ASSERT_GE(task.pieces, 4);
+  EXPECT_NEAR(task.course[0].heading_rad, angle_of(0.3f, 0.2f), 0.03f) << "30 cm to the left of the middle";
+  EXPECT_NEAR(task.course[1].heading_rad, -0.25f * kPi, 0.01f);
+  EXPECT_NEAR(task.course[1].length_m, 0.849f, 0.01f) << "and as far to the right";
+  EXPECT_NEAR(task.course[2].heading_rad, 0.25f * kPi, 0.01f);
+  EXPECT_NEAR(task.course[3].length_m, 3.0f - 0.8f - 1.2f, 0.02f) << "then along the road";
+  EXPECT_TRUE(moved(kMarked, 0.5f, 0.1f).has_room_to_seek());
+  EXPECT_FALSE(moved(kElbowOut, 2.7f, 2.5f, 0.5f * kPi).has_room_to_seek()) << "its end is too near";
+}
+
+TEST(OnRoad, ARobotThatCrossesItsLineLearnsWhereTheRoadIs) {
+  OnRoad place = moved(kMarked, 1.0f, 0.0f, 0.25f * kPi);   // it was pushed to the right, unnoticed
+  Senses senses;
+  senses.line_known = true;
+  EXPECT_FALSE(place.cross_line(senses, true)) << "no paint";
+  for (float& darkness : senses.line) darkness = 0.0f;
+  senses.line[2] = senses.line[1] = 1.0f;
+  EXPECT_FALSE(place.cross_line(senses, false)) << "hardly farther aside than it was thought to be";
+  place = moved(kMarked, 1.0f, 0.2f, -0.25f * kPi);
+  EXPECT_TRUE(place.cross_line(senses, true));
+  EXPECT_NEAR(place.spot().left_m, 0.07f, 0.02f) << "the row, 10 cm before it, is on the line";
+}
+
+TEST(OnRoad, NearItsEndItTellsHowFarBesideTheRoadTheRobotIs) {
+  EXPECT_NEAR(moved(kElbowOut, 2.5f, 3.2f, 0.5f * kPi).left_of_end_m(0.5f * kPi), 0.2f, 0.02f);
+  EXPECT_EQ(moved(kElbowOut, 2.65f, 3.2f, 0.5f * kPi).left_of_end_m(0.5f * kPi), 0.0f) << "so near the middle the line tells it better";
+  EXPECT_EQ(moved(kElbowOut, 2.5f, 3.2f, 0.5f * kPi).left_of_end_m(0.0f), 0.0f) << "it comes by another road";
+}
+
+TEST(OnRoad, CarriedItFacesAsItsCompassSays) {
+  OnRoad place = moved(kElbowOut, 1.0f, 0.0f);
+  Senses senses;
+  senses.heading_known = senses.odometry_known = true;
+  senses.heading_rad = kPi;
+  place.step(senses, 0.02f);
+  EXPECT_LT(magnitude(place.heading_rad()), 0.5f * kPi);
+  place.forget();
+  place.step(senses, 0.02f);
+  EXPECT_NEAR(magnitude(place.heading_rad()), kPi, 0.01f);
+}
+
 }  // namespace
 }  // namespace mts
