@@ -159,7 +159,7 @@ class BasicImageMind {
   [[nodiscard]] std::int64_t time_us() const {
     return visit([](const auto& half) { return half.state.now_us; });
   }
-  /// How many facts were NaN or outside [-1, 1].
+  /// How many facts were NaN or outside [-1, 1] on the last tick.
   [[nodiscard]] std::uint32_t bad_facts() const {
     return visit([](const auto& half) { return half.state.bad_facts; });
   }

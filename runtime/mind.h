@@ -216,7 +216,7 @@ class Decision {
   [[nodiscard]] std::uint64_t tick() const { return s_->ticks; }
   /// Time since the first tick, in microseconds.
   [[nodiscard]] std::int64_t time_us() const { return s_->now_us; }
-  /// How many facts were NaN or outside [-1, 1].
+  /// How many facts were NaN or outside [-1, 1] on this tick.
   [[nodiscard]] std::uint32_t bad_facts() const { return s_->bad_facts; }
 
   /// Rules that fired, from the highest level to the lowest; within a level in order of declaration.
