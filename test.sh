@@ -24,7 +24,7 @@ packages() {
   tools/install_packages build test page
 }
 checks() {          # what needs no compiler
-  tools/check_layers && tools/check_includes && tools/check_notes && tools/check_abi && python3 tests/golden/coverage.py
+  tools/check_layers && tools/check_includes && tools/check_notes && tools/check_abi && tools/check_times && python3 tests/golden/coverage.py
 }
 build() {           # g++, optimised, -Werror
   cmake --preset test && cmake --build --preset test

@@ -1,6 +1,7 @@
 // The clock that all robots of a fleet share: see note [stamps].
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -61,6 +62,8 @@ class FleetClock {
   [[nodiscard]] std::uint32_t duration_us(std::size_t queue) const { return durations_us_[queue]; }
   [[nodiscard]] const std::vector<std::uint32_t>& ripe() const { return ripe_; }
   [[nodiscard]] const std::vector<std::uint32_t>& ripe_before() const { return ripe_before_; }
+  /// Memory of the times that can still be asked for.
+  [[nodiscard]] std::size_t bytes() const { return times_us_.size() * sizeof(std::int64_t); }
   /// The time of a stamp that was not ripe on the last tick.
   [[nodiscard]] std::int64_t time_us(std::uint32_t stamp) const { return times_us_[stamp - first_]; }
   /// The stamp of the time of a tick; for a time so old that it is forgotten, the oldest stamp that is known.

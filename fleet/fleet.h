@@ -138,8 +138,10 @@ class Fleet {
   [[nodiscard]] std::size_t alone() const;
   /// Number of blocks of 512 robots that the last tick passed over.
   [[nodiscard]] std::size_t passed_over() const;
-  /// Memory of all planes, stamps and certainties.
-  [[nodiscard]] std::size_t bytes() const { return memory_.bytes() + weights_.size() * sizeof(float); }
+  /// Memory of all planes, stamps and certainties, and of the clock, which grows with the fleet's age: it keeps 8 bytes for each tick
+  /// within the longest duration that rules wait for or hold a strategy. `for 1 h` at a tick a millisecond is 29 MB, whatever the number
+  /// of robots; it has its full size after that hour.
+  [[nodiscard]] std::size_t bytes() const { return memory_.bytes() + weights_.size() * sizeof(float) + clock_.bytes(); }
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;

@@ -148,7 +148,7 @@ class LanePort {
       s.cf[f] = fact.value;
       engine.set_terms(f, fact.value);
       if (fact.bad) engine.flip_flag(f, kBad);
-      if (fact.bad) ++s.bad_facts;
+      if (fact.bad) ++s.bad_given;
       engine.recheck(f);
       if (!memory_.test(at, p_.facts[f].seen)) continue;
       engine.flip_flag(f, kSeen);

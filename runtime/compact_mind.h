@@ -45,7 +45,7 @@ class CompactMind {
   [[nodiscard]] Decision<K> decision() const { return Decision<K>(state_); }
   [[nodiscard]] float value(typename K::Fact fact) const { return state_.fact_cf[static_cast<std::uint32_t>(fact)]; }
   [[nodiscard]] float value(typename K::Satellite satellite) const;
-  /// Whether the strategy ran on the last tick.
+  /// Whether rules ran the strategy on the last tick. False of one that only goes on because it is held, or named by `idle`: see Mind::ran.
   [[nodiscard]] bool ran(typename K::Strategy strategy) const {
     return bits::test(state_.strategy_set, static_cast<std::uint32_t>(strategy));
   }

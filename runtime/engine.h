@@ -116,7 +116,7 @@ class Engine {
   /// Returns to the state at start-up.
   void reset();
   /// Gives a fact its value for the next tick. NaN is taken as 0, values outside [-1, 1] are clamped; both are counted in
-  /// `bad_facts` for as long as the fact keeps such a value. Facts that are not given keep their value.
+  /// `bad_facts`, on each tick for as long as the fact keeps such a value. Facts that are not given keep their value.
   void take_fact(std::uint32_t fact, float raw);
   /// Runs one tick, `dt_us` after the last one (ignored on the first). The result is in the state's lists.
   void advance(std::uint32_t dt_us) {

@@ -55,7 +55,8 @@ inline void Engine<S, T>::take_fact(std::uint32_t fact, float raw) {
   const float value = sane(raw, bad);
   if (bad != flag(fact, kBad)) {
     flip_flag(fact, kBad);
-    s.bad_facts = bad ? s.bad_facts + 1 : s.bad_facts - 1;
+    if (bad) ++s.bad_given;
+    else --s.bad_given;
     s.quiet = false;
   }
   if (same(value_of(fact), value)) return;
@@ -344,6 +345,7 @@ inline void Engine<S, T>::decide() {
     s.driving = Status::kNoStrategy;
     if (t->idle == Idle::kStrategy) s.strategy = static_cast<Ix>(t->idle_strategy + 1);
   }
+  s.bad_facts = s.bad_given;   // what is given from now on is no matter of this decision
   s.status = s.bad_facts != 0 ? Status::kBadFact : s.driving;
   if (s.conflicts != 0) s.status = Status::kConflict;
   if (s.active > 1) s.status = Status::kTwoStrategies;

@@ -159,7 +159,7 @@ class BasicImageMind {
   [[nodiscard]] std::int64_t time_us() const {
     return visit([](const auto& half) { return half.state.now_us; });
   }
-  /// How many facts were NaN or outside [-1, 1].
+  /// How many facts were NaN or outside [-1, 1] on the last tick.
   [[nodiscard]] std::uint32_t bad_facts() const {
     return visit([](const auto& half) { return half.state.bad_facts; });
   }
@@ -176,7 +176,7 @@ class BasicImageMind {
       return satellite < range.count && half.state.cf[range.first + satellite] >= half.image.tables.firing;
     });
   }
-  /// Whether the strategy ran on the last tick.
+  /// Whether rules ran the strategy on the last tick. False of one that only goes on because it is held, or named by `idle`: see Mind::ran.
   [[nodiscard]] bool ran(std::uint32_t strategy) const { return value(ImageKind::kStrategy, strategy) > 0.0f; }
   /// Whether some satellite of the fact is high.
   [[nodiscard]] bool attended(std::uint32_t fact) const {

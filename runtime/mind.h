@@ -216,7 +216,7 @@ class Decision {
   [[nodiscard]] std::uint64_t tick() const { return s_->ticks; }
   /// Time since the first tick, in microseconds.
   [[nodiscard]] std::int64_t time_us() const { return s_->now_us; }
-  /// How many facts were NaN or outside [-1, 1].
+  /// How many facts were NaN or outside [-1, 1] on this tick.
   [[nodiscard]] std::uint32_t bad_facts() const { return s_->bad_facts; }
 
   /// Rules that fired, from the highest level to the lowest; within a level in order of declaration.
@@ -286,7 +286,9 @@ class Mind {
   [[nodiscard]] float value(typename K::Satellite satellite) const {
     return state_.cf[K::kShape.facts + static_cast<std::uint32_t>(satellite)];
   }
-  /// Whether the strategy ran on the last tick.
+  /// Whether rules ran the strategy on the last tick, which is what conditions read of it on the next: `decision().active()` lists these.
+  /// One that is held (idle = hold), or that drives because `idle` names it, was run by no rule: false. What moves the robot now is
+  /// `decision().strategy()`, if `decision().drives()`.
   [[nodiscard]] bool ran([[maybe_unused]] typename K::Strategy strategy) const {
     if constexpr (K::kShape.strategies == 0) return false;
     else return state_.cf[K::kShape.facts + K::kShape.satellites + static_cast<std::uint32_t>(strategy)] > 0.0f;

@@ -21,6 +21,11 @@
 //     - some rule that reads it has all the satellites that its condition asks for as plain parts of its `and`, or
 //     - a fact that is perceived on this tick is defined by it.
 //   Else it is 0: nothing is known. Each of the first two is an *alternative*: a list of demands on cells, which must all hold.
+//
+// note [a clock that is set back]
+//   A reading is new if its instant is another than at the look before. Its age is then what the host's clock says, and grows on a clock
+//   of perception's own, which stands while the host's is set back: a silent sensor does not become young again. A new reading from the
+//   future, as clocks differ a little, counts as measured now; if it is ahead by more than a second or than its `stale`, as none.
 #pragma once
 
 #include <cstdint>
@@ -100,7 +105,10 @@ struct PerceptionState {
   std::uint8_t* known = nullptr;   ///< fits: `fit` is that of the present reading
   float* certainty = nullptr;      ///< facts
   std::uint8_t* needed = nullptr;  ///< facts
-  std::int64_t now_us = 0;
+  std::int64_t* at_us = nullptr;   ///< readings: the instant that the present one states, if there is one
+  std::int64_t* born_us = nullptr; ///< readings: that of the present one on perception's own clock, or kNoReading, or kRefused
+  std::int64_t now_us = 0;         ///< the host's clock at the last look
+  std::int64_t clock_us = 0;       ///< see note [a clock that is set back]
   bool first = true;
   SightReport report;
 };
@@ -115,6 +123,7 @@ class PerceptionEngine {
     for (std::uint32_t r = 0; r < t.shape.readings; ++r) {
       s.value[r] = 0.0f;
       s.spread[r] = -1.0f;
+      s.born_us[r] = kNoReading;
     }
     for (std::uint32_t f = 0; f < t.shape.fits; ++f) {
       s.fit[f] = 0.0f;
@@ -124,7 +133,7 @@ class PerceptionEngine {
       s.certainty[f] = 0.0f;
       s.needed[f] = 1;
     }
-    s.now_us = 0;
+    s.now_us = s.clock_us = 0;
     s.first = true;
     s.report = {};
   }
@@ -134,6 +143,7 @@ class PerceptionEngine {
   void look(const S& readings, Instant now, const float* cells, float firing, const float* given) {
     s.report = {};
     if (!s.first && now.us < s.now_us) worsen(Sight::kTimeBackwards);
+    else if (!s.first && __builtin_add_overflow(s.clock_us, age_at(now, s.now_us), &s.clock_us)) s.clock_us = INT64_MAX;
     s.now_us = now.us;
     s.first = false;
     take_all(readings, now);
@@ -142,6 +152,9 @@ class PerceptionEngine {
   }
 
  private:
+  static constexpr std::int64_t kNoReading = INT64_MIN, kRefused = INT64_MAX;
+  static constexpr float kMostAhead_s = 1.0f;
+
   void worsen(Sight sight) {
     if (sight > s.report.sight) s.report.sight = sight;
   }
@@ -152,9 +165,20 @@ class PerceptionEngine {
 
   struct Datum { float value, spread; };
 
+  /// When a reading was measured, on perception's own clock: see note [a clock that is set back].
+  [[nodiscard]] std::int64_t born(std::uint32_t r, const Sensor& sensor, std::int64_t at_us, bool there, Instant now) {
+    std::int64_t& birth = s.born_us[r];
+    if (!there) return birth = kNoReading;
+    if (birth != kNoReading && s.at_us[r] == at_us) return birth;
+    s.at_us[r] = at_us;
+    const std::int64_t age_us = age_at(now, at_us);
+    const bool refused = age_us < 0 && static_cast<float>(age_us) * -1e-6f > least(kMostAhead_s, sensor.stale_s);
+    return birth = refused ? kRefused : age_at({s.clock_us}, age_us);
+  }
+
   /// What a reading says now. A spread below 0 means that it says nothing.
-  [[nodiscard]] Datum take(const Sensor& sensor, float value, std::int64_t age_us, bool there) {
-    if (!there) {
+  [[nodiscard]] Datum take(const Sensor& sensor, float value, std::int64_t born_us) {
+    if (born_us == kNoReading) {
       if (!sensor.text) count(s.report.silent, Sight::kSilent);
       return {value, -1.0f};
     }
@@ -162,8 +186,10 @@ class PerceptionEngine {
       count(s.report.not_a_number, Sight::kNotANumber);
       return {value, -1.0f};
     }
+    std::int64_t age_us = age_at({s.clock_us}, born_us);
     if (age_us < 0) {
       count(s.report.from_the_future, Sight::kFromTheFuture);
+      if (born_us == kRefused) return {value, -1.0f};
       age_us = 0;
     }
     const float age_s = static_cast<float>(age_us) * 1e-6f;
@@ -182,7 +208,7 @@ class PerceptionEngine {
     std::uint32_t fits = 0;
     for (std::uint32_t r = 0; r < table.shape.readings; ++r) {
       const Sensor& sensor = table.sensors[table.sensor_of[r]];
-      const Datum datum = take(sensor, readings.value[r], age_at(now, readings.at_us[r]), readings.there[r] != 0);
+      const Datum datum = take(sensor, readings.value[r], born(r, sensor, readings.at_us[r], readings.there[r] != 0, now));
       if (datum.spread == to.spread[r] && datum.value == to.value[r]) continue;
       if (datum.spread < 0.0f && to.spread[r] < 0.0f) continue;
       to.spread[r] = datum.spread;
@@ -324,10 +350,11 @@ class Perception {
   static constexpr std::uint32_t length(std::uint32_t n) { return n == 0 ? 1 : n; }
 
   PerceptionState attach() {
-    return {value_, spread_, fit_, known_, certainty_, needed_, now_us_, first_, report_};
+    return {value_, spread_, fit_, known_, certainty_, needed_, at_us_, born_us_, now_us_, clock_us_, first_, report_};
   }
   void detach(const PerceptionState& state) {
     now_us_ = state.now_us;
+    clock_us_ = state.clock_us;
     first_ = state.first;
     report_ = state.report;
   }
@@ -339,7 +366,8 @@ class Perception {
   std::uint8_t known_[length(P::kShape.fits)] = {};
   float certainty_[length(P::kShape.facts)] = {};
   std::uint8_t needed_[length(P::kShape.facts)] = {};
-  std::int64_t now_us_ = 0;
+  std::int64_t at_us_[length(P::kShape.readings)] = {}, born_us_[length(P::kShape.readings)] = {};
+  std::int64_t now_us_ = 0, clock_us_ = 0;
   bool first_ = true;
   SightReport report_;
 };

@@ -6,8 +6,8 @@
 
 namespace mts {
 
-/// A moment of the host's own clock, in microseconds from any origin; only differences count. It must never wrap: after a wrap, all earlier
-/// readings would lie in the future. Widen a 32-bit counter: `wide.us += std::uint32_t(counter - std::uint32_t(wide.us))`.
+/// A moment of the host's own clock, in microseconds from any origin; only differences count. It must never wrap: after a wrap, the
+/// sensors' next readings and the clock would not be of one time. Widen a 32-bit counter: `wide.us += std::uint32_t(counter - std::uint32_t(wide.us))`.
 struct Instant {
   std::int64_t us = 0;
 };

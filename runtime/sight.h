@@ -14,8 +14,8 @@ enum class Sight : std::uint8_t {
   kStale,          ///< some reading is older than its sensor's `stale`: it says little, or (a text) nothing
   kBeyondRange,    ///< some reading was outside of its sensor's range: taken as the nearest end
   kNotANumber,     ///< some reading was NaN or infinite: taken as no reading
-  kFromTheFuture,  ///< some reading was measured after `now`: taken as measured now
-  kTimeBackwards,  ///< `now` is before that of the look before; ages are those of the new clock
+  kFromTheFuture,  ///< some reading was measured after `now`: taken as measured now, or, if it is further ahead than clocks differ, as none
+  kTimeBackwards,  ///< `now` is before that of the look before: readings keep the age that they had, and new ones go by the new clock
 };
 
 // As in runtime/status.h.

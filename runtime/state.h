@@ -39,7 +39,8 @@ struct Scalars {
   Ix active = 0, wanted = 0;
   Ix strategy = 0;                  ///< dispatched strategy + 1, or 0
   Ix held = 0;                      ///< what `hold` holds + 1, or 0
-  std::uint32_t bad_facts = 0;
+  Ix bad_facts = 0;                 ///< as the last tick found them
+  Ix bad_given = 0;                 ///< as they are given now
   Status status = Status::kNoStrategy;
   Status driving = Status::kNoStrategy;  ///< the status if nothing is wrong: one of the first four
   bool quiet = false;              ///< the last tick changed nothing: with the same facts the next one repeats it

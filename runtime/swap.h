@@ -128,12 +128,13 @@ class Transplant {
           s_.cf[f] = o_.cf[x];
           engine_.set_terms(f, s_.cf[f]);
           s_.fact_flags[f] = o_.fact_flags[x] & (kSeen | kBad);
-          if ((o_.fact_flags[x] & kBad) != 0) ++s_.bad_facts;
+          if ((o_.fact_flags[x] & kBad) != 0) ++s_.bad_given;
           if ((o_.fact_flags[x] & kSeen) != 0 && atoms[f].seen != 0) engine_.flip(atoms[f].seen);
         },
         [&](std::uint32_t x) {
           if (o_.cf[x] != 0.0f || (o_.fact_flags[x] & kSeen) != 0) tell(lost, Loss::kFact, old_.name(ImageKind::kFact, x), o_.cf[x]);
         });
+    s_.bad_facts = s_.bad_given;   // of those that are carried over
     for (std::uint32_t i = 0; i < o_.events; ++i) {
       const std::uint32_t f = counterpart(o_.event_list[i]);
       if (f == new_.tables.shape.facts) continue;

@@ -148,6 +148,18 @@ std::string instances(const CppInput& in, std::string_view before) {
   return out;
 }
 
+// note [files of one make]
+// The fleet and the map of a knowledge base stand in files of their own, which say planes, satellites and facts by number. One that
+// is left over from before a change would compile with the new header and decide by the old numbers. So the header says what it was
+// made of, and they assert that they were made of the same. A map has what no mind has, the course of its roads; its fingerprint
+// stands in the header if both were made at once, and a header that was made without a map fits none.
+std::string emit_prints(std::uint64_t mind, std::uint64_t map) {
+  return fmt::format(
+      "/// What this header was made of: the headers of its fleet and of its map, made by the same run of kbc, check it.\n"
+      "inline constexpr std::uint64_t kMadeOf = 0x{:016x}u, kMapMadeOf = 0x{:x}u;\n\n",
+      mind, map);
+}
+
 /// About the bytes of the enumerations, which are the most of a large header: each cell once, each rule with its name and its place behind it.
 std::size_t least_of_header(const program::Program& program) {
   constexpr std::size_t kAroundCell = 4, kAroundRule = 15;
@@ -164,11 +176,13 @@ Cpp cpp(const program::Program& program, const tables::Tables& tables, const Cpp
   const CppInput in{program, tables, options, make_names(program, tables), make_type_names(program)};
   const std::string declared = header_body(in), defined = is_full(declared) ? "" : source_body(in);
   if (is_full(declared) || is_full(defined)) return {};
-  const std::string version = version_name(declared, defined);
+  const std::uint64_t print = print_of_code(declared, defined);
+  const std::string version = version_name(print);
   const auto within = [&](std::string_view body) {
     return fmt::format("namespace {0} {{\ninline namespace {1} {{\n\n{2}}}  // namespace {1}\n}}  // namespace {0}\n\n", options.name_space, version, body);
   };
   Cpp cpp;
+  cpp.print = print;
   std::string& h = cpp.header;
   h += kGenerated;
   h += "#pragma once\n\n#include <cstdint>\n";
@@ -177,7 +191,7 @@ Cpp cpp(const program::Program& program, const tables::Tables& tables, const Cpp
   if (!program.controls.empty()) h += "#include <waymark/runtime/control_line.h>\n";
   h += options.compact ? "#include <waymark/runtime/compact_mind.h>\n" : "#include <waymark/runtime/mind.h>\n";
   h += has_perception(in) ? "#include <waymark/runtime/perception.h>\n\n" : "\n";
-  h += within(declared) + instances(in, "extern ");
+  h += within(declared + emit_prints(print, options.map_print)) + instances(in, "extern ");
   cpp.source = fmt::format("{}#include \"{}\"\n\n{}{}", kGenerated, options.header_name, within(defined), instances(in, ""));
   return cpp;
 }

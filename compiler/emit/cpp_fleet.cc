@@ -166,9 +166,17 @@ class LayoutPrinter {
   std::uint32_t weights_ = 0;
 };
 
+/// See note [files of one make]. Both files assert it: either may be the one that was left over.
+std::string demand_mind(const std::string& ns, const FleetFiles& files) {
+  return fmt::format("static_assert({0}::kMadeOf == 0x{1:016x}u, \"this fleet was made of another version of the knowledge base than the mind of {0}: \"\n"
+                     "              \"compile the knowledge base with --fleet again (with CMake: FLEET in kb_add_library, then build)\");\n\n",
+                     ns, files.mind_print);
+}
+
 std::string header(const std::string& ns, const FleetFiles& files) {
   std::string h = std::string(kGenerated) + "#pragma once\n\n";
   fmt::format_to(Out(h), "#include <waymark/fleet/fleet.h>\n#include \"{}\"\n\n", files.plain_header);
+  h += demand_mind(ns, files);
   fmt::format_to(Out(h),
                  "template <>\nstruct mts::FleetForm<::{0}::Knowledge> {{\n"
                  "  static constexpr std::uint32_t kAbi = {1};\n"
@@ -203,7 +211,7 @@ void emit_kernels(const std::string& ns, std::string& s) {
 std::string source_text(const FleetInput& in, const FleetFiles& files) {
   const std::string& ns = in.options.name_space;
   std::string s = std::string(kGenerated) + "// Reads itself, once for each width of words: see note [one source, several widths] in fleet/widths.h.\n";
-  fmt::format_to(Out(s), "#ifndef KB_FLEET_WIDTH\n#include \"{}\"\n\nnamespace {}::fleet_kernel {{\nnamespace {{\n\n", in.options.header_name, ns);
+  fmt::format_to(Out(s), "#ifndef KB_FLEET_WIDTH\n#include \"{}\"\n\n{}namespace {}::fleet_kernel {{\nnamespace {{\n\n", in.options.header_name, demand_mind(ns, files), ns);
   LayoutPrinter(in, s).print();
   fmt::format_to(Out(s), "}}  // namespace\n}}  // namespace {0}::fleet_kernel\n\n#define KB_FLEET_SOURCE \"{1}\"\n#include <waymark/fleet/widths.h>\n#undef KB_FLEET_SOURCE\n\n", ns,
                  files.source_name);

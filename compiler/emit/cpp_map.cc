@@ -91,11 +91,11 @@ std::string landmark_runs(const model::Model& model, const program::Program& pro
 
 }  // namespace
 
-std::string cpp_map(const model::Model& model, const program::Program& program, const tables::Tables& tables, const CppOptions& options) {
+std::string map_body(const model::Model& model, const program::Program& program, const tables::Tables& tables) {
   const auto roads = roads_of_legs(model);
   if (!roads || roads->empty()) return {};
   const Rows rows = rows_of(model, program, make_names(program, tables), *roads);
-  const std::string body = fmt::format(
+  return fmt::format(
       "/// The roads that routes and their detours lead along, in both directions where they do.\n"
       "inline constexpr mts::Piece kMapPieces[] = {{   // heading in rad, length in m\n{1}}};\n"
       "inline constexpr mts::MapRoad kMapRoads[] = {{\n{2}}};\n\n"
@@ -113,10 +113,21 @@ std::string cpp_map(const model::Model& model, const program::Program& program, 
       "  static constexpr mts::FactRun kRuns[] = {{   // the first, and how many\n{4}  }};\n"
       "  return {{kRuns, sizeof kRuns / sizeof kRuns[0]}};\n}}\n\n",
       rows.leg_count, rows.pieces, rows.roads, rows.legs, landmark_runs(model, program));
-  const std::string version = version_name(body, "");
+}
+
+std::uint64_t print_of_map(std::string_view body) {
+  const std::uint64_t print = print_of_code(body, "");
+  return print != 0 ? print : 1;
+}
+
+/// The assertion: see note [files of one make].
+std::string cpp_map(std::string_view body, const CppOptions& options, std::uint64_t mind_print) {
   return fmt::format("{0}#pragma once\n\n#include <cstdint>\n\n#include <waymark/controllers/road_map.h>\n\n#include \"{1}\"\n\n"
+                     "static_assert({2}::kMadeOf == 0x{5:016x}u && {2}::kMapMadeOf == 0x{6:x}u,\n"
+                     "              \"this map was made of another version of the knowledge base than the mind of {2}, or the mind was made without --map: \"\n"
+                     "              \"compile the knowledge base with --map again (with CMake: MAP in kb_add_library, then build)\");\n\n"
                      "namespace {2} {{\ninline namespace {3} {{\n\n{4}}}  // namespace {3}\n}}  // namespace {2}\n",
-                     kGenerated, options.header_name, options.name_space, version, body);
+                     kGenerated, options.header_name, options.name_space, version_name(options.map_print), body, mind_print, options.map_print);
 }
 
 }  // namespace kb::emit

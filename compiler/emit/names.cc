@@ -215,12 +215,14 @@ void mix_code(source::Fingerprint& print, std::string_view text) {
 // only one of each: one of the robots would be driven by the wrong rules. So all emitted code is in an inline namespace whose name depends
 // on that code. Users do not see it, and if both headers are included in one file, the compiler says that their names are ambiguous.
 // Comments do not count: they say on which lines rules are, and one more line of text in a knowledge base does not change the mind.
-std::string version_name(std::string_view declared, std::string_view defined) {
+std::uint64_t print_of_code(std::string_view declared, std::string_view defined) {
   source::Fingerprint print;
   mix_code(print, declared);
   mix_code(print, defined);
-  return fmt::format("kb_{:016x}", print.value());
+  return print.value();
 }
+
+std::string version_name(std::uint64_t print) { return fmt::format("kb_{:016x}", print); }
 
 std::string name_space_for(std::string_view path) {
   const std::size_t slash = path.find_last_of("/\\");

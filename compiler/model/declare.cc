@@ -306,10 +306,11 @@ void declare_relation(Draft& draft, const syntax::Relation& from) {
   draft.model.relations.push_back(std::move(relation));
 }
 
-/// Commands are rows, also without a library that declares their relation. (Sets have been declared before.)
+/// Commands are rows of a relation that nobody declares: it has no fields, since a command says nothing but its name. (Sets and relations
+/// have been declared before; whatever else has its name is reported where it is declared.)
 void implicit_commands(Draft& draft) {
   const Entity* other = draft.names.find("Command");
-  if (other != nullptr && other->kind != Entity::Kind::kRelation) draft.diagnostics.report(Kind::kNameOfCommands, other->declared, {"Command"});
+  if (other != nullptr) draft.diagnostics.report(Kind::kNameOfCommands, other->declared, {"Command"});
   implicit_relation(draft, "Command", {});
 }
 

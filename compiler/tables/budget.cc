@@ -67,8 +67,8 @@ std::size_t perception_table_bytes(const PerceptionForm& form, std::size_t w) {
 /// The size of mts::Perception and the readings, without the facts, which count as part of the mind's state.
 std::size_t perception_state_bytes(const mts::PerceptionShape& n) {
   if (n.facts == 0 && n.readings == 0) return 0;
-  const std::size_t reading = 3 * sizeof(float) + sizeof(std::int64_t) + 1, fit = sizeof(float) + 1, fact = sizeof(float) + 1;
-  return n.readings * reading + n.fits * fit + n.facts * fact + sizeof(std::int64_t) + sizeof(mts::SightReport) + 1;
+  const std::size_t reading = 3 * sizeof(float) + 3 * sizeof(std::int64_t) + 1, fit = sizeof(float) + 1, fact = sizeof(float) + 1;
+  return n.readings * reading + n.fits * fit + n.facts * fact + 2 * sizeof(std::int64_t) + sizeof(mts::SightReport) + 1;
 }
 
 std::size_t fuzzy_stack_bytes(const FuzzyForm& form) {

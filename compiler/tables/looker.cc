@@ -17,13 +17,15 @@ class Engine final : public Looker {
   Engine(const Program& program, const PerceptionForm& form)
       : firing_(static_cast<float>(program.settings.firing)), form_(form), view_(view(form)),
         floats_(2u * form.shape.readings + form.shape.fits + form.shape.facts + 1u),
-        bytes_(form.shape.fits + form.shape.facts + 1u) {
+        bytes_(form.shape.fits + form.shape.facts + 1u), instants_(2u * form.shape.readings + 1u) {
     state_.value = floats_.data();
     state_.spread = state_.value + form.shape.readings;
     state_.fit = state_.spread + form.shape.readings;
     state_.certainty = state_.fit + form.shape.fits;
     state_.known = bytes_.data();
     state_.needed = state_.known + form.shape.fits;
+    state_.at_us = instants_.data();
+    state_.born_us = state_.at_us + form.shape.readings;
     mts::PerceptionEngine<I>(view_, state_).reset();
   }
 
@@ -39,12 +41,13 @@ class Engine final : public Looker {
   mts::PerceptionTables<I> view_;
   std::vector<float> floats_;
   std::vector<std::uint8_t> bytes_;
+  std::vector<std::int64_t> instants_;
   mts::PerceptionState state_;
 };
 
 class Plain final : public Looker {
  public:
-  Plain(const Program& program, const PerceptionForm& form) : program_(program), from_(program.perception), form_(form) {
+  Plain(const Program& program, const PerceptionForm& form) : program_(program), from_(program.perception), form_(form), arrivals_(form.shape.readings) {
     std::vector<program::Alternatives> found = program::alternatives(program, from_.lazy_facts());
     auto next = found.begin();
     for (const program::Perceived& perceived : from_.perceived) alternatives_.push_back(perceived.lazy ? std::move(*next++) : program::Alternatives{});
@@ -53,7 +56,7 @@ class Plain final : public Looker {
   void look(const ReadingTable& readings, std::int64_t now_us, std::span<const float> cells, std::span<float> facts) override {
     report_ = {};
     readings_ = &readings;
-    now_us_ = now_us;
+    note_arrivals(now_us);
     for (std::size_t i = 0; i < from_.perceived.size(); ++i) facts[program::index(from_.perceived[i].fact)] = value(from_.perceived[i].percept, facts);
     awaited_ = who_is_awaited(cells);
     for (std::size_t i = 0; i < from_.perceived.size(); ++i) {
@@ -75,13 +78,35 @@ class Plain final : public Looker {
 
  private:
   struct Datum { float value = 0.0f, spread = -1.0f; };
+  /// The present reading of an element: when it came, and what it says of when it was measured.
+  struct Arrival { bool there = false, refused = false; std::int64_t at_us = 0, set_back_us = 0; };
+
+  void note_arrivals(std::int64_t now_us) {
+    if (!first_ && now_us < now_us_) set_back_us_ += now_us_ - now_us;
+    first_ = false;
+    now_us_ = now_us;
+    for (std::size_t r = 0; r < arrivals_.size(); ++r) {
+      Arrival& last = arrivals_[r];
+      const std::int64_t at_us = readings_->at_us[r];
+      if (readings_->there[r] == 0) last = {};
+      else if (!last.there || last.at_us != at_us) {
+        const float ahead_s = static_cast<float>(at_us - now_us) * 1e-6f;
+        last = {true, ahead_s > std::min(1.0f, form_.sensors[form_.sensor_of[r]].stale_s), at_us, set_back_us_};
+      }
+    }
+  }
+
+  /// What the clock says now, and by how much it has been set back since the reading came.
+  [[nodiscard]] std::int64_t age_us(const Arrival& reading) const {
+    return std::max<std::int64_t>(0, now_us_ - reading.at_us + (set_back_us_ - reading.set_back_us));
+  }
 
   [[nodiscard]] Datum datum(std::uint32_t reading) const {
     const mts::Sensor& sensor = form_.sensors[form_.sensor_of[reading]];
     const float value = readings_->value[reading];
-    if (readings_->there[reading] == 0 || std::isnan(value) || std::isinf(value)) return {};
-    const std::int64_t age_us = std::max<std::int64_t>(0, now_us_ - readings_->at_us[reading]);
-    const float age_s = static_cast<float>(age_us) * 1e-6f;
+    const Arrival& arrival = arrivals_[reading];
+    if (!arrival.there || arrival.refused || std::isnan(value) || std::isinf(value)) return {};
+    const float age_s = static_cast<float>(age_us(arrival)) * 1e-6f;
     if (sensor.text) return {value, age_s > sensor.stale_s ? -1.0f : 0.0f};
     const float inside = sensor.period > 0.0f ? mts::wrapped(value, sensor.low, sensor.period) : std::clamp(value, sensor.low, sensor.high);
     return {inside, mts::aged_spread(sensor.noise, sensor.growth, age_s)};
@@ -141,7 +166,9 @@ class Plain final : public Looker {
   std::vector<program::Alternatives> alternatives_;  // by perceived fact
   std::vector<bool> awaited_;  // by perceived fact, at the last look
   const ReadingTable* readings_ = nullptr;
-  std::int64_t now_us_ = 0;
+  std::vector<Arrival> arrivals_;   // by reading
+  std::int64_t now_us_ = 0, set_back_us_ = 0;   // by how much the clock has been set back in all
+  bool first_ = true;
   mts::SightReport report_;
 };
 

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     const auto program = kb::program::testing::random_program(seed);
     const auto tables = kb::tables::build(program, seed % 2 == 0 ? kb::tables::Limits{} : kb::tables::Limits{2, 0});
     const auto mind = kb::emit::cpp(program, tables, {name, name + ".kb.h"});
-    const auto fleet = kb::emit::cpp_fleet(program, tables, {name, name + ".kb.fleet.h"}, {name + ".kb.h", name + ".kb.fleet.cc"});
+    const auto fleet = kb::emit::cpp_fleet(program, tables, {name, name + ".kb.fleet.h"}, {name + ".kb.h", name + ".kb.fleet.cc", mind.print});
     std::ofstream(folder + "/" + name + ".kb.h") << mind.header;
     std::ofstream(folder + "/" + name + ".kb.cc") << mind.source;
     std::ofstream(folder + "/" + name + ".kb.fleet.h") << fleet.header;

@@ -26,7 +26,7 @@ bool sees_alike(std::uint64_t seed) {
   using Store = std::remove_cvref_t<decltype(readings.store())>;
   Store& store = const_cast<Store&>(readings.store());
   for (int tick = 0; tick < 80; ++tick) {
-    now_us += dice.below(30) == 0 ? -200'000 : dice.below(200'000);
+    now_us += dice.below(30) == 0 ? -static_cast<std::int64_t>(dice.below(2'000'000)) : static_cast<std::int64_t>(dice.below(200'000));
     tables::testing::random_readings(dice, program.perception, table, now_us);
     for (std::uint32_t r = 0; r < form.shape.readings; ++r) {
       store.value[r] = table.value[r];

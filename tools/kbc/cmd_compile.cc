@@ -166,8 +166,13 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
     return files;   // not in an initializer list, which would copy the image
   }
   const auto file_name = [&names](std::size_t i) { return std::filesystem::path(names[i]).filename().string(); };
-  emit::Cpp cpp = emit::cpp(compiled.program, compiled.tables,
-                            {.name_space = name_space, .header_name = file_name(0), .compact = options.compact});
+  const std::string map = options.map ? emit::map_body(compiled.model, compiled.program, compiled.tables) : "";
+  if (options.map && map.empty()) {
+    session.report(Kind::kGraphNothing, {options.file, roads_lacking(compiled.model)});
+    return {};
+  }
+  const emit::CppOptions how = {.name_space = name_space, .header_name = file_name(0), .compact = options.compact, .map_print = options.map ? emit::print_of_map(map) : 0};
+  emit::Cpp cpp = emit::cpp(compiled.program, compiled.tables, how);
   if (cpp.source.empty()) {
     session.report(Kind::kCppTooLarge, {options.file, fmt::format("{}", emit::kMaxCppBytes >> 20)});
     return {};
@@ -175,12 +180,11 @@ Files emit_files(const CompileOptions& options, const driver::Compilation& compi
   Files files = {{names[0], std::move(cpp.header)}, {names[1], std::move(cpp.source)}};
   if (options.fleet) {
     emit::Cpp fleet = emit::cpp_fleet(compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(2)},
-                                      {.plain_header = file_name(0), .source_name = file_name(3)});
+                                      {.plain_header = file_name(0), .source_name = file_name(3), .mind_print = cpp.print});
     files.push_back({names[2], std::move(fleet.header)});
     files.push_back({names[3], std::move(fleet.source)});
   }
-  if (options.map) files.push_back({names.back(), emit::cpp_map(compiled.model, compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(0)})});
-  if (files.back().bytes.empty()) session.report(Kind::kGraphNothing, {options.file, roads_lacking(compiled.model)});
+  if (options.map) files.push_back({names.back(), emit::cpp_map(map, how, cpp.print)});
   return files;
 }
 
@@ -224,7 +228,7 @@ int compile(const CompileOptions& options, Session& session) {
   if (!options.depfile.empty() && !can_list_files(names, session)) return kErrors;
   if (!make_folder_of(names[0], session)) return kErrors;
   Files files = emit_files(options, *compiled, names, name_space, session);
-  if (files.empty() || files.back().bytes.empty()) return kErrors;
+  if (files.empty()) return kErrors;
   if (options.form == "cpp") diagnose_hidden(options, files.front(), session);
   if (!options.depfile.empty()) files.push_back({options.depfile, print_depfile(files, session.files_read())});
   const bool large = compiled->program.rules.size() >= tables::kWorthAThread;

@@ -21,6 +21,15 @@ TEST(FleetClock, CountsDifferentTimesAndKnowsWhichAreLongAgo) {
   EXPECT_EQ(clock.ripe()[1], 1u);
 }
 
+TEST(FleetClock, CountsItsMemoryWhichGrowsUpToTheLongestDuration) {
+  mts::FleetClock clock({100'000, 1'000'000});
+  for (int i = 0; i < 20; ++i) clock.advance(10'000);
+  EXPECT_EQ(clock.bytes(), 20 * sizeof(std::int64_t));
+  for (int i = 0; i < 1'000; ++i) clock.advance(10'000);
+  EXPECT_GE(clock.bytes(), 100 * sizeof(std::int64_t));
+  EXPECT_LE(clock.bytes(), 103 * sizeof(std::int64_t));
+}
+
 TEST(FleetClock, NumbersStampsAnewBeforeTheyRunOut) {
   constexpr std::uint32_t kNear = 0xC000'0000u - 2;
   mts::FleetClock clock({100'000, 1'000'000}, kNear);

@@ -139,6 +139,13 @@ TEST(Fleet, SaysOfATickWhatItHasKept) {
   }
 }
 
+TEST(Fleet, CountsTheMemoryOfItsClock) {
+  Fleet fleet = standing(10);
+  const std::size_t before = fleet.bytes();
+  for (int i = 0; i < 50; ++i) fleet.tick(mts::milliseconds(1));
+  EXPECT_GE(fleet.bytes(), before + 50 * sizeof(std::int64_t)) << "`for 1 s` keeps the ticks of a second";
+}
+
 TEST(Fleet, CountsFactsThatAreNoCertainty) {
   Fleet fleet = standing(10, {.traced = true});
   fleet.set(3, Fact::Wall, std::numeric_limits<float>::quiet_NaN());

@@ -40,6 +40,17 @@ TEST(CompactMind, KeepsItsDecisionWhenASatelliteIsSet) {
   EXPECT_TRUE(mind.decision().drives());
 }
 
+TEST(CompactMind, KeepsItsDecisionWhenAFactIsGiven) {
+  Mind mind;
+  const auto decision = mind.tick(mts::milliseconds(10));
+  mind.give(Fact::Quiet, 7.0f);
+  EXPECT_EQ(decision.bad_facts(), 0u);
+  EXPECT_NE(decision.status(), mts::Status::kBadFact);
+  mind.tick(mts::milliseconds(10));
+  EXPECT_EQ(decision.bad_facts(), 1u);
+  EXPECT_EQ(decision.status(), mts::Status::kBadFact);
+}
+
 TEST(CompactMind, RefusesToSetASatelliteThatNoRuleWrites) {
   Mind mind;
   EXPECT_FALSE(mind.set(Satellite::sat_Quiet, 1.0f));

@@ -130,6 +130,36 @@ TEST(Mind, TakesNaNAsNoDataAndClampsTheRest) {
   EXPECT_EQ(decision.bad_facts(), 0u);
 }
 
+TEST(Mind, KeepsItsDecisionWhenAFactIsGiven) {
+  Mind mind;
+  mind.give(Fact::class_, 7.0f);
+  const auto decision = mind.tick(milliseconds(10));
+  const auto status = decision.status();
+  mind.give(Fact::Dark, std::nanf(""));
+  EXPECT_EQ(decision.bad_facts(), 1u);
+  mind.give(Fact::class_, 0.0f);
+  EXPECT_EQ(decision.bad_facts(), 1u);
+  EXPECT_EQ(decision.status(), status);
+  mind.give(Fact::Dark, 0.0f);
+  EXPECT_EQ(decision.status(), status);
+  mind.tick(milliseconds(10));
+  EXPECT_EQ(decision.bad_facts(), 0u);
+  EXPECT_NE(decision.status(), Status::kBadFact);
+}
+
+TEST(Mind, DoesNotSayOfAStrategyThatIsHeldThatItRan) {
+  Mind mind;
+  mind.tick(milliseconds(10));
+  mind.give(Fact::Button_left, 1.0f);
+  EXPECT_TRUE(mind.tick(milliseconds(10)).drives() && mind.ran(Strategy::Drive_left));
+  mind.give(Fact::Button_left, -1.0f);
+  const auto decision = mind.tick(milliseconds(10));
+  ASSERT_TRUE(decision.holding() && decision.drives());
+  EXPECT_EQ(decision.strategy(), Strategy::Drive_left);
+  EXPECT_FALSE(mind.ran(Strategy::Drive_left)) << "no rule runs it, and conditions do not see it";
+  EXPECT_TRUE(decision.active().empty());
+}
+
 TEST(Mind, HoldsTheLastControllerForTheLimitAndThenStops) {
   Mind mind;
   Facts facts;

@@ -39,7 +39,7 @@ Work compare(std::uint64_t seed, bool lazy) {
   std::int64_t now_us = 0;
   Work work;
   for (int tick = 0; tick < 60; ++tick) {
-    now_us += dice.below(30) == 0 ? -200'000 : dice.below(200'000);
+    now_us += dice.below(30) == 0 ? -static_cast<std::int64_t>(dice.below(2'000'000)) : static_cast<std::int64_t>(dice.below(200'000));
     random_readings(dice, program.perception, readings, now_us);
     for (std::uint32_t i = 0; i < cells.size(); ++i) cells[i] = machine.value(CellId{i});
     for (float& fact : seen) fact = static_cast<float>(dice.between(-1.2, 1.2));
@@ -148,12 +148,53 @@ TEST_F(OneSensor, knows_nothing_when_it_disappears) {
 
 TEST_F(OneSensor, goes_on_when_time_goes_backwards) {
   readings_.set(0, 0.1f, 1'000'000);
-  const float fresh = look(1'000'000);
-  EXPECT_EQ(look(500'000), fresh) << "a reading from the future is as good as new";
+  const float fresh = look(1'000'000), aged = look(1'100'000);
+  ASSERT_LT(aged, fresh);
+  EXPECT_EQ(look(500'000), aged) << "a reading keeps the age that it had";
   EXPECT_EQ(report().sight, mts::Sight::kTimeBackwards);
-  EXPECT_EQ(report().from_the_future, 1u);
-  EXPECT_EQ(look(600'000), fresh);
+  EXPECT_EQ(report().from_the_future, 0u);
+  EXPECT_LT(look(550'000), aged) << "and ages on with the new clock";
+  EXPECT_EQ(report().sight, mts::Sight::kClear);
+  readings_.set(0, 0.1f, 550'000);
+  EXPECT_EQ(look(550'000), fresh) << "a new reading goes by the new clock";
+  EXPECT_EQ(look(650'000), aged);
+}
+
+TEST_F(OneSensor, does_not_come_to_life_by_a_clock_that_is_set_back) {
+  constexpr std::int64_t kHour_us = 3'600'000'000;
+  readings_.set(0, 0.1f, kHour_us);
+  (void)look(kHour_us);
+  const float old = look(kHour_us + 1'000'000);
+  ASSERT_LT(old, 0.2f);
+  EXPECT_EQ(look(1'000'000), old);
+  for (std::int64_t now_us = 2'000'000; now_us <= 3 * kHour_us; now_us += 60'000'000) {
+    ASSERT_LE(look(now_us), old) << "also when the clock says again what it said when the sensor died";
+    ASSERT_EQ(report().sight, mts::Sight::kStale);
+  }
+}
+
+TEST_F(OneSensor, takes_a_reading_that_is_a_little_ahead_as_measured_now) {
+  readings_.set(0, 0.1f, 0);
+  const float fresh = look(0);
+  readings_.set(0, 0.1f, 190'000);
+  EXPECT_EQ(look(10'000), fresh) << "180 ms, and it is stale after 200 ms";
   EXPECT_EQ(report().sight, mts::Sight::kFromTheFuture);
+  EXPECT_EQ(report().from_the_future, 1u);
+  EXPECT_EQ(look(190'000), fresh);
+  EXPECT_EQ(report().sight, mts::Sight::kClear);
+}
+
+TEST_F(OneSensor, refuses_a_reading_that_is_far_ahead_until_another_comes) {
+  readings_.set(0, 0.1f, 3'600'000'000);
+  EXPECT_EQ(look(0), 0.0f);
+  EXPECT_EQ(report().from_the_future, 1u);
+  EXPECT_EQ(look(3'600'000'000), 0.0f) << "the clock has caught up, but nothing tells how old the reading is";
+  EXPECT_EQ(report().sight, mts::Sight::kFromTheFuture);
+  readings_.set(0, 0.1f, 3'600'000'001);
+  EXPECT_GT(look(3'600'000'001), 0.9f);
+  readings_.there[0] = 0;
+  EXPECT_EQ(look(3'600'000'002), 0.0f);
+  EXPECT_EQ(report().sight, mts::Sight::kSilent);
 }
 
 TEST_F(OneSensor, takes_any_two_times) {
@@ -162,8 +203,10 @@ TEST_F(OneSensor, takes_any_two_times) {
   EXPECT_NEAR(look(kLast), 0.0f, 1e-3f) << "as old as can be: it says nothing any more";
   EXPECT_EQ(report().from_the_future, 0u);
   readings_.set(0, 0.1f, kLast);
-  EXPECT_GT(look(kFirst), 0.9f);
+  EXPECT_EQ(look(kFirst), 0.0f);
   EXPECT_EQ(report().from_the_future, 1u);
+  readings_.set(0, 0.1f, 0);
+  EXPECT_EQ(look(kLast), look(kLast)) << "the clock runs for twice as long as it can count";
 }
 
 TEST_F(OneSensor, is_not_looked_at_twice_for_the_same_reading) {

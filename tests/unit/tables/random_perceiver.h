@@ -106,7 +106,11 @@ inline void random_readings(Dice& dice, const program::Perception& perception, R
       case 0: case 1: case 2: case 3: case 4: break;  // nothing new
       case 5: readings.there[r] = 0; break;
       case 6: readings.set(r, std::numeric_limits<float>::quiet_NaN(), now_us); break;
-      case 7: readings.set(r, static_cast<float>(sensor.high * 3.0), now_us + 50'000); break;  // out of range, from the future
+      case 7: {                                                                               // out of range, from the future
+        const std::int64_t ahead_us = dice.below(2) == 0 ? 50'000 : static_cast<std::int64_t>(dice.below(4'000'000));
+        readings.set(r, static_cast<float>(sensor.high * 3.0), now_us + ahead_us);
+        break;
+      }
       default: readings.set(r, sensor.text ? static_cast<float>(dice.below(4)) : static_cast<float>(dice.between(sensor.low, sensor.high)), now_us);
     }
   }
