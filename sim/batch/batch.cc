@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "compiler/source/numbers.h"
 #include "sim/batch/fields.h"
@@ -22,20 +23,7 @@ std::string row_begin(const std::vector<NamedScenario>& scenarios, const Run& ru
   return begin + fmt::format("{},{},{},", run.seed, run.robot, run.noise);
 }
 
-std::string row_end(const Run& run) {
-  const std::string closest = run.closest_m == kNothingNear ? std::string() : fmt::format("{:.3f}", run.closest_m);
-  return fmt::format("{},{},{:.1f},{:.2f},{},{},{},{},{:.2f},{:.2f},{},{}", run.outcome, run.reports, run.time_s, run.length_m, run.collisions, run.bans_broken,
-                     run.lost_unaware ? 1 : 0, run.standing_contacts, run.touched_s, run.impact_m_s, closest, run.missed);
-}
-
-/// Whether a drive of that scenario can have come to this: so a row that was damaged on disk does not spoil the quantiles of all others.
-bool is_possible(const Run& run, const Scenario& scenario) {
-  constexpr double kMostSpeed = 1000.0;         // m/s; nothing in a scenario comes near it
-  const double most_s = scenario.limit_s + 2.0;   // the tick in which the time is up, at most 1 s long, is driven to its end
-  const auto within = [](double value, double most) { return value >= 0.0 && value <= most; };
-  return within(run.time_s, most_s) && within(run.length_m, kMostSpeed * most_s) && within(run.touched_s, most_s) && within(run.impact_m_s, kMostSpeed) &&
-         (run.closest_m == kNothingNear || run.closest_m >= 0.0) && run.missed <= scenario.events.size();
-}
+std::string row_end(const Run& run) { return fmt::format("{},{},{:.1f},{:.2f},{}", run.outcome, run.reports, run.time_s, run.length_m, print_measures(run)); }
 
 }  // namespace
 
@@ -76,7 +64,7 @@ std::optional<Run> Batch::drive(std::size_t number, const std::function<bool()>&
 std::string Batch::header() const {
   std::string header = "scenario,";
   for (const std::string& key : options_.keys) header += key + ",";
-  return header + "seed,robot,noise,outcome,reports,time_s,length_m,collisions,bans_broken,lost_unaware,standing_contacts,touched_s,impact_m_s,closest_m,missed";
+  return header + fmt::format("seed,robot,noise,outcome,reports,time_s,length_m,{}", kMeasures);
 }
 
 std::string Batch::print(const Run& run) const { return row_begin(scenarios_, run) + row_end(run); }
@@ -85,21 +73,17 @@ std::optional<Run> Batch::parse(std::string_view line, std::size_t number) const
   Run result = run(number);
   const std::string begin = row_begin(scenarios_, result);
   if (!line.starts_with(begin)) return std::nullopt;
-  std::array<std::string_view, 12> fields;
+  constexpr std::size_t kBefore = 4;
+  std::array<std::string_view, kBefore + kMeasureCount> fields;
   std::size_t outcome = 0;
-  std::uint32_t unaware = 0;
-  using source::read_number;
-  const bool good = split(line.substr(begin.size()), fields) && read_name(fields[0], kOutcomes, outcome) && read_number(fields[2], result.time_s) &&
-                    read_number(fields[3], result.length_m) && read_number(fields[4], result.collisions) &&
-                    read_number(fields[5], result.bans_broken) && read_number(fields[6], unaware) && unaware < 2 &&
-                    read_number(fields[7], result.standing_contacts) && read_number(fields[8], result.touched_s) && read_number(fields[9], result.impact_m_s) &&
-                    (fields[10].empty() || read_number(fields[10], result.closest_m)) && read_number(fields[11], result.missed);
+  const bool good = split(line.substr(begin.size()), fields) && read_name(fields[0], kOutcomes, outcome) && source::read_number(fields[2], result.time_s) &&
+                    source::read_number(fields[3], result.length_m) && read_measures(std::span(fields).last<kMeasureCount>(), result);
   if (!good) return std::nullopt;
   result.outcome = fields[0];
   result.reports = fields[1];
-  result.lost_unaware = unaware == 1;
   const bool as_printed = line.substr(begin.size()) == row_end(result);
-  return as_printed && is_possible(result, scenarios_[result.scenario].scenario) ? std::optional(std::move(result)) : std::nullopt;
+  const Scenario& scenario = scenarios_[result.scenario].scenario;
+  return as_printed && is_possible(result, scenario.limit_s, scenario.events.size()) ? std::optional(std::move(result)) : std::nullopt;
 }
 
 }  // namespace kb::sim::batch

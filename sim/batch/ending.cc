@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/source/numbers.h"
+
 namespace kb::sim::batch {
 
 Ending ending_of(const Summary& summary) {
@@ -21,7 +23,33 @@ Ending ending_of(const Summary& summary) {
   ending.impact_m_s = summary.impact_m_s();
   if (summary.closest) ending.closest_m = summary.closest->gap_m;
   ending.missed = static_cast<std::uint32_t>(summary.missed.size());
+  ending.last_moved_s = summary.last_moved_s;
   return ending;
+}
+
+std::string print_measures(const Ending& ending) {
+  const std::string closest = ending.closest_m == kNothingNear ? std::string() : fmt::format("{:.3f}", ending.closest_m);
+  return fmt::format("{},{},{},{},{:.2f},{:.2f},{},{},{:.1f}", ending.collisions, ending.bans_broken, ending.lost_unaware ? 1 : 0, ending.standing_contacts,
+                     ending.touched_s, ending.impact_m_s, closest, ending.missed, ending.last_moved_s);
+}
+
+bool read_measures(std::span<const std::string_view, kMeasureCount> fields, Ending& ending) {
+  using source::read_number;
+  std::uint32_t unaware = 0;
+  const bool good = read_number(fields[0], ending.collisions) && read_number(fields[1], ending.bans_broken) && read_number(fields[2], unaware) && unaware < 2 &&
+                    read_number(fields[3], ending.standing_contacts) && read_number(fields[4], ending.touched_s) && read_number(fields[5], ending.impact_m_s) &&
+                    (fields[6].empty() || read_number(fields[6], ending.closest_m)) && read_number(fields[7], ending.missed) &&
+                    read_number(fields[8], ending.last_moved_s);
+  ending.lost_unaware = unaware == 1;
+  return good;
+}
+
+bool is_possible(const Ending& ending, double limit_s, std::size_t events) {
+  constexpr double kMostSpeed = 1000.0;   // m/s; nothing in a scenario comes near it
+  const double most_s = limit_s + 2.0;    // the tick in which the time is up, at most 1 s long, is driven to its end
+  const auto within = [](double value, double most) { return value >= 0.0 && value <= most; };
+  return within(ending.time_s, most_s) && within(ending.length_m, kMostSpeed * most_s) && within(ending.touched_s, most_s) && within(ending.impact_m_s, kMostSpeed) &&
+         (ending.closest_m == kNothingNear || ending.closest_m >= 0.0) && ending.missed <= events && within(ending.last_moved_s, ending.time_s);
 }
 
 bool says_why(const Ending& ending) { return ending.outcome != "arrived" && ending.outcome != "time_up" && !ending.reports.empty(); }

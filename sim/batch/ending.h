@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,8 +30,19 @@ struct Ending {
   double touched_s = 0.0, impact_m_s = 0.0;
   double closest_m = kNothingNear;
   std::uint32_t missed = 0;               ///< events of the scenario that never happened
+  double last_moved_s = 0.0;              ///< see Summary
 };
 [[nodiscard]] Ending ending_of(const Summary& summary);
+
+/// What all results say of a drive besides its outcome, time and length: the names of the columns, and their fields in a row.
+inline constexpr std::string_view kMeasures = "collisions,bans_broken,lost_unaware,standing_contacts,touched_s,impact_m_s,closest_m,missed,last_moved_s";
+inline constexpr std::size_t kMeasureCount = 9;
+[[nodiscard]] std::string print_measures(const Ending& ending);
+/// Reads `print_measures` back from its fields. False if one of them is no number of its kind.
+[[nodiscard]] bool read_measures(std::span<const std::string_view, kMeasureCount> fields, Ending& ending);
+/// Whether a drive of at most `limit_s` seconds and of so many events can have ended so: then a row that was damaged on disk does not spoil
+/// the quantiles of all others.
+[[nodiscard]] bool is_possible(const Ending& ending, double limit_s, std::size_t events);
 /// Whether it stands, has not arrived, and reports why. A robot that still drove when the time was up says nothing by its reports.
 [[nodiscard]] bool says_why(const Ending& ending);
 

@@ -137,6 +137,7 @@ void Drive::watch_mission(const Judge::Belief& belief) {
   mission_ = on;
   stands_s_ = std::abs(wheels_.wheel_speed_m_s()) < kStandsBelow ? stands_s_ + static_cast<double>(options_.dt_us) / 1e6 : 0.0;
   if (std::abs(wheels_.wheel_turn_rad_s()) >= kTurnsFrom) turned_at_s_ = time_s();
+  moved_at_s_ = stands_s_ > 0.0 ? std::max(moved_at_s_, turned_at_s_) : time_s();
   over_ = options_.helm != nullptr && options_.helm->gone() && stands_s_ >= kGoneFor;
   const bool more = std::any_of(pending_.begin(), pending_.end(), [](const Pending& p) { return p.event != nullptr; }) ||
                     std::any_of(scenario_.events.begin(), scenario_.events.end(), [&](const Event& event) {
@@ -199,6 +200,7 @@ void Drive::finish() {
   if (options_.helm == nullptr) summary.outputs = driver_.outputs();
   if (const Judge::Belief now = belief(); now.strategy != nullptr) summary.running = now.strategy->name;
   summary.time_s = (ended_ && !mission_ ? ended_s_ : time_s()) - began_s_;
+  summary.last_moved_s = std::clamp(moved_at_s_ - began_s_, 0.0, summary.time_s);   // from an end to the end of the drive it may still roll
   if (mission_) {
     summary.length_m -= length_at_start_m_;
     length_at_start_m_ = 0.0;

@@ -110,7 +110,7 @@ class Drive {
   const Leg* last_leg_ = nullptr;             // the one that is current, or was last
   bool abort_pressed_ = false, over_ = false;
   std::string last_landmark_;
-  double began_s_ = 0.0, ended_s_ = 0.0, stands_s_ = 0.0, turned_at_s_ = 0.0, length_at_start_m_ = 0.0;
+  double began_s_ = 0.0, ended_s_ = 0.0, stands_s_ = 0.0, turned_at_s_ = 0.0, moved_at_s_ = 0.0, length_at_start_m_ = 0.0;
   CellChanges recorded_{MindNames{}};
   std::vector<std::size_t> standing_;         // the recording's stays of the last frame: a moving thing makes a new one each time
   std::vector<std::string> notes_;

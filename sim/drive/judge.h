@@ -43,6 +43,7 @@ struct Summary {
   std::vector<std::string> outputs;          ///< the satellites declared `output` that were high when it ended; none of a driver of another program
   std::string running;                       ///< the strategy that drove when it ended; empty: none
   double time_s = 0.0;                       ///< from the first press of a command that was obeyed until the end
+  double last_moved_s = 0.0;                 ///< when its wheels last turned, counted as time_s; the rest of that it stood and waited
   double length_m = 0.0;                     ///< driven, in truth
   std::vector<std::string> way;              ///< `LM5.W`: the crossings left, and by which exit
   struct Contact { double t_s = 0.0; std::string what; Spot at; double speed_m_s = 0.0; };   ///< the speed at which they came together

@@ -74,6 +74,10 @@ class Drawer {
   [[nodiscard]] const Road& road(std::size_t leg) const { return labyrinth_[route_.exits[leg]->road]; }
   /// Rounded down to whole centimetres, as it is written.
   [[nodiscard]] double length_m(std::size_t leg) const { return std::floor((road(leg).ends_m - road(leg).begins_m) * 100.0) / 100.0; }
+  /// The end of a stretch as it is written: on a floor of any size it is not rounded beyond the end of the road.
+  [[nodiscard]] double end_m(std::size_t leg, double to_m) const {
+    return std::min(m(to_m), std::floor(m(road(leg).ends_m - road(leg).begins_m) * 100.0) / 100.0);
+  }
   [[nodiscard]] std::string exit(std::size_t leg) const {
     return fmt::format("{}.{}", labyrinth_[route_.crossings[leg]].name, route_.exits[leg]->name);
   }
@@ -174,7 +178,7 @@ class Drawer {
   // ---- class 3
   void worn(std::size_t leg_of) {
     double from_m = between(0.0, 0.5 * length_m(leg_of)), to_m = std::min(length_m(leg_of), from_m + between(0.3, 1.5));
-    event("time = 0", fmt::format("wear = \"{}\"\nfrom = {:.2f}\nto = {:.2f}", exit(leg_of), m(from_m), m(to_m)));
+    event("time = 0", fmt::format("wear = \"{}\"\nfrom = {:.2f}\nto = {:.2f}", exit(leg_of), m(from_m), end_m(leg_of, to_m)));
     kind("worn");
   }
   void tag(std::size_t leg_of, bool wrong) {
@@ -186,7 +190,7 @@ class Drawer {
     kind(wrong ? "tag_wrong" : "tag_unreadable");
   }
   void worn_and_unreadable(std::size_t leg_of) {
-    event("time = 0", fmt::format("wear = \"{}\"\nfrom = 0.0\nto = {:.2f}", exit(leg_of), m(length_m(leg_of))));
+    event("time = 0", fmt::format("wear = \"{}\"\nfrom = 0.0\nto = {:.2f}", exit(leg_of), end_m(leg_of, length_m(leg_of))));
     tag(leg_of, random_.chance(0.3f));
     kind("worn");
   }
@@ -221,9 +225,21 @@ std::string start_of(const CaseGround& ground) {
 
 }  // namespace
 
+bool are_kinds_of(Class what, std::string_view kinds) {
+  while (!kinds.empty()) {
+    const std::size_t plus = kinds.find('+');
+    const std::string_view word = kinds.substr(0, plus);
+    if (std::none_of(kKindWords.begin(), kKindWords.end(), [&](const KindWord& known) { return known.what == what && known.word == word; })) return false;
+    if (plus == std::string_view::npos) return true;
+    kinds.remove_prefix(plus + 1);
+  }
+  return what == Class::kNone;
+}
+
 Case draw_case(const CaseGround& ground, Class what, std::uint64_t seed, Random& random) {
   Case out;
   out.what = what;
+  out.seed = seed;
   out.scenario = fmt::format("seed = {}\nlimit = {:.0f}\n\n{}\n[[event]]\nwhen = {{ time = 1 }}\npress = \"Go\"\n", seed, ground.limit_s * static_cast<double>(mts::Similarity(ground.size).of("s")), start_of(ground));
   Drawer(ground, out, random).draw(what);
   return out;

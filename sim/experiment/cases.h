@@ -22,9 +22,20 @@ inline constexpr std::array<std::string_view, 4> kClassNames{"none", "1 route", 
 
 inline constexpr double kStartBefore = 1.2;   ///< m: how far before the first stop line the robot starts
 
+/// One word for each kind of thing that goes wrong, with its class.
+struct KindWord { Class what; std::string_view word; };
+inline constexpr std::array<KindWord, 13> kKindWords{{{Class::kRoute, "closed"}, {Class::kRoute, "closed_a_while"}, {Class::kRoute, "unsafe"},
+                                                      {Class::kBetween, "obstacle"}, {Class::kBetween, "obstacle_stays"}, {Class::kBetween, "walker"},
+                                                      {Class::kBetween, "power"}, {Class::kBetween, "twice"}, {Class::kPlace, "worn"},
+                                                      {Class::kPlace, "tag_unreadable"}, {Class::kPlace, "tag_wrong"}, {Class::kPlace, "carried_on_road"},
+                                                      {Class::kPlace, "carried"}}};
+/// Whether a case of this class can have this text for its kinds.
+[[nodiscard]] bool are_kinds_of(Class what, std::string_view kinds);
+
 struct Case {
   Class what{};
-  std::string kinds;         ///< `closed+unsafe`: one word for each thing that goes wrong, in order
+  std::uint64_t seed = 0;    ///< of all noise
+  std::string kinds;         ///< `closed+unsafe`: of kKindWords one for each thing that goes wrong, in order
   std::string scenario;      ///< TOML
   Bans bans;                 ///< what stays closed to the end; the shortest way avoids it
 };

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "compiler/source/numbers.h"
 #include "planners/crew.h"
 #include "sim/experiment/bug_helm.h"
 #include "sim/experiment/programmed.h"
@@ -19,7 +20,6 @@ namespace kb::sim::experiment {
 namespace {
 
 constexpr std::uint32_t kScenariosOfARoute = 8;   // two of each class
-constexpr double kPatience = 300.0, kTimes = 4.0; // a drive may take kPatience seconds and kTimes the shortest time
 
 std::optional<Labyrinth> laid_out(const Sketch& sketch, const Setup& setup, const source::FileSystem& files) {
   try {
@@ -54,10 +54,13 @@ Labyrinth::End start_for(const Labyrinth& labyrinth, const RoutePlan& route) {
   return {first, route.exits.front()};
 }
 
-std::size_t place_of(std::string_view method) {
+std::size_t rank_of(std::string_view method) {
   const auto& methods = built_in_methods();
   return static_cast<std::size_t>(std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == method; }) - methods.begin());
 }
+
+/// Without it the simulator would round up the scale anew for each size, and the case would not fit.
+std::string scale_option(const Labyrinth& floor, double size) { return fmt::format("--scale {}", floor.scale / floor.size * size); }
 
 }  // namespace
 
@@ -67,8 +70,8 @@ const std::vector<Method>& built_in_methods() {
 }
 
 bool way_before(const Row& a, const Row& b) {
-  const std::size_t place_a = place_of(a.method), place_b = place_of(b.method);
-  return std::tie(place_a, a.method, a.set) < std::tie(place_b, b.method, b.set);
+  const std::size_t rank_a = rank_of(a.method), rank_b = rank_of(b.method);
+  return std::tie(rank_a, a.method, a.set) < std::tie(rank_b, b.method, b.set);
 }
 
 float size_of(const std::vector<Setting>& settings) {
@@ -79,11 +82,17 @@ float size_of(const std::vector<Setting>& settings) {
   return size;
 }
 
+Place place_of(const Setup& setup, std::uint32_t scenario) {
+  const std::uint32_t turn = scenario / setup.labyrinths;   // how many scenarios its labyrinth had before
+  return {scenario % setup.labyrinths, turn / kScenariosOfARoute, static_cast<Class>(turn % kClassNames.size())};
+}
+
 std::vector<Group> groups_of(const Setup& setup) {
   std::vector<Group> groups;
   for (std::uint32_t labyrinth = 0; labyrinth < setup.labyrinths; ++labyrinth) {
-    for (std::uint32_t scenario = labyrinth, i = 0; scenario < setup.scenarios; scenario += setup.labyrinths, ++i) {
-      if (i % kScenariosOfARoute == 0) groups.push_back({labyrinth, i / kScenariosOfARoute, {}});
+    for (std::uint32_t scenario = labyrinth; scenario < setup.scenarios; scenario += setup.labyrinths) {
+      const std::uint32_t route = place_of(setup, scenario).route;
+      if (scenario == labyrinth || groups.back().route != route) groups.push_back({labyrinth, route, {}});
       groups.back().scenarios.push_back(scenario);
     }
   }
@@ -142,7 +151,22 @@ Case Prepared::case_of(std::uint32_t scenario, float size) const {
   Random random(setup_.seed, stream_of(Drawn::kCase, scenario));
   const std::uint64_t seed = random.next() >> 12;
   const CaseGround ground{floor_, route_, start_, kPatience + kTimes * extent_of(floor_, route_).time_s, size};
-  return draw_case(ground, static_cast<Class>(scenario / setup_.labyrinths % kClassNames.size()), seed, random);
+  return draw_case(ground, place_of(setup_, scenario).what, seed, random);
+}
+
+std::string Prepared::scenario_text(std::uint32_t scenario, const std::vector<Setting>& settings) const {
+  std::string text = case_of(scenario, size_of(settings)).scenario, set, how;
+  for (const Setting& setting : settings) {
+    set += setting.toml() + "\n";
+    double size = 1.0;
+    if (setting.key == "robot.size" && source::read_number(setting.value, size) && size != 1.0) {
+      how = fmt::format("# On the floor of a robot of size 1, enlarged: kbc sim mission.kb --scenario scenario.toml {}\n", scale_option(floor_, size));
+    }
+    if (setting.key != "limit") continue;
+    const std::size_t drawn = text.find("limit = ");
+    text.erase(drawn, text.find('\n', drawn) + 1 - drawn);
+  }
+  return how + set + text;   // keys of the whole file stand before its first table
 }
 
 Row Prepared::drive(std::uint32_t scenario, const Method& method, std::size_t set) {
@@ -171,6 +195,7 @@ Row Prepared::drive(std::uint32_t scenario, const Method& method, std::size_t se
   row.route = group_.route;
   row.what = what.what;
   row.kinds = what.kinds;
+  row.noise = what.seed;
   const Extent shortest = extent_of(floor_, shortest_way(floor_, route_.crossings.front(), goal, what.bans).value());
   row.shortest_m = (shortest.length_m + kStartBefore + start_.arm->stop_m) * size;
   row.shortest_s = (shortest.time_s + time_for(floor_[start_.arm->road], kStartBefore, start_.arm->stop_m)) * static_cast<double>(as.of("s"));

@@ -51,6 +51,7 @@ struct Row : batch::Ending {
   std::uint32_t labyrinth = 0, route = 0;
   Class what{};
   std::string kinds;                      ///< of disturbance: see Case
+  std::uint64_t noise = 0;                ///< the seed of all noise: see Case
   double shortest_s = 0.0, shortest_m = 0.0;   ///< along the roads that are not closed for good: see extent_of
 };
 
@@ -59,10 +60,11 @@ struct Row : batch::Ending {
 /// Orders rows by scenario, then as above.
 [[nodiscard]] inline bool before(const Row& a, const Row& b) { return a.scenario != b.scenario ? a.scenario < b.scenario : way_before(a, b); }
 
-/// The header, a row as a line of CSV without line break, and a line read back; nothing if it is no such line.
+/// The header, a row as a line of CSV without line break, and a line read back; nothing if it is not as `print` writes it, or no run of this
+/// setup can have led to it. Rows of any method are taken.
 [[nodiscard]] std::string row_header(const Combinations& set);
 [[nodiscard]] std::string print(const Row& row, const Combinations& set);
-[[nodiscard]] std::optional<Row> parse_row(std::string_view line, const Combinations& set);
+[[nodiscard]] std::optional<Row> parse_row(std::string_view line, const Setup& setup);
 
 /// The robot's size by the settings; 1 if they do not set it.
 [[nodiscard]] float size_of(const std::vector<Setting>& settings);
@@ -73,6 +75,12 @@ struct Group {
   std::vector<std::uint32_t> scenarios;
 };
 [[nodiscard]] std::vector<Group> groups_of(const Setup& setup);
+/// What a scenario's number alone says of it.
+struct Place { std::uint32_t labyrinth = 0, route = 0; Class what{}; };
+[[nodiscard]] Place place_of(const Setup& setup, std::uint32_t scenario);
+
+/// A drive may take kPatience seconds and kTimes the shortest time.
+inline constexpr double kPatience = 300.0, kTimes = 4.0;
 
 /// A labyrinth, as a map and as a floor to plan routes on.
 struct Ground {
@@ -115,6 +123,9 @@ class Prepared {
   /// The text of `mission.kb`, which drives by the rules of the file `mind`, given relative to its own folder.
   [[nodiscard]] std::string mission(const std::string& mind = {}, float size = 1.0f) const;
   [[nodiscard]] Case case_of(std::uint32_t scenario, float size = 1.0f) const;
+  /// The text of `scenario.toml`, settings included: with it `kbc sim` drives the mission as `drive` does. For a robot of another size than 1 it
+  /// also needs the `--scale` that the first line, a comment, tells.
+  [[nodiscard]] std::string scenario_text(std::uint32_t scenario, const std::vector<Setting>& settings) const;
   /// `set`: index into Setup::set. Throws MindFails.
   [[nodiscard]] Row drive(std::uint32_t scenario, const Method& method, std::size_t set = 0);
   [[nodiscard]] const RoutePlan& route() const { return route_; }

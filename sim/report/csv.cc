@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "compiler/source/utf8.h"
 #include "sim/report/report.h"
@@ -52,15 +54,34 @@ std::vector<std::uint32_t> facts_of(const MindNames& names) {
   return facts;
 }
 
-void print_header(const Recording& recording, const std::vector<std::uint32_t>& facts, std::string& out) {
-  Row row(out);
-  for (const char* name : {"t", "x_m", "y_m", "heading_rad"}) row.text(name);
-  for (std::size_t i = 0; i < mts::kLineSensors; ++i) row.text(fmt::format("line_{}", i));
-  for (std::size_t i = 0; i < mts::kRangeFinders; ++i) row.text(fmt::format("range_{}_m", i));
-  for (const char* name : {"compass_rad", "odometry_x_m", "odometry_y_m", "odometry_m_s", "odometry_turned_rad", "touched"}) row.text(name);
-  for (const std::uint32_t fact : facts) row.text(recording.names.cells[fact].name);
-  for (const char* name : {"strategy", "leg", "status", "notes"}) row.text(name);
+/// The columns of the table other than facts: those before them, and those behind.
+std::vector<std::string> columns_before() {
+  std::vector<std::string> names{"t", "x_m", "y_m", "heading_rad"};
+  for (std::size_t i = 0; i < mts::kLineSensors; ++i) names.push_back(fmt::format("line_{}", i));
+  for (std::size_t i = 0; i < mts::kRangeFinders; ++i) names.push_back(fmt::format("range_{}_m", i));
+  names.insert(names.end(), {"compass_rad", "odometry_x_m", "odometry_y_m", "odometry_m_s", "odometry_turned_rad", "touched"});
+  return names;
 }
+constexpr std::array<std::string_view, 5> kColumnsBehind{"strategy", "leg", "status", "notes", "tick"};
+
+void print_header(const Recording& recording, const std::vector<std::uint32_t>& facts, std::string& out) {
+  const std::vector<std::string> before = columns_before();
+  std::set<std::string_view> taken(before.begin(), before.end());
+  taken.insert(kColumnsBehind.begin(), kColumnsBehind.end());
+  Row row(out);
+  for (const std::string& name : before) row.text(name);
+  for (const std::uint32_t fact : facts) {
+    const std::string& name = recording.names.cells[fact].name;
+    row.text(taken.contains(name) ? "fact:" + name : name);   // no name has a colon
+  }
+  for (const std::string_view name : kColumnsBehind) row.text(name);
+}
+
+/// Without power, or waiting for a button, the mind does not tick and its clock stands still.
+bool rests(const Frame& frame) { return frame.status == "off" || frame.status == "waits"; }
+
+/// Whether the knowledge base decided in this frame. Of the mind of another program, whose frames have no status, nothing is known.
+bool ticked(const Frame& frame) { return !rests(frame) && !frame.status.empty() && frame.status != "gone"; }
 
 void print_senses(const mts::Senses& senses, Row& row) {
   for (const float line : senses.line) row.number(static_cast<double>(line), senses.line_known);
@@ -106,6 +127,7 @@ std::string csv(const Recording& recording) {
 
   std::string out;
   print_header(recording, facts, out);
+  std::uint64_t ticks = 0;
   for (const Frame& frame : recording.frames) {
     apply(frame, values);
     Row row(out);
@@ -118,6 +140,7 @@ std::string csv(const Recording& recording) {
     std::string notes;
     for (const std::string& note : frame.notes) notes += (notes.empty() ? "" : "; ") + note;
     row.text(notes);
+    row.text(ticked(frame) ? fmt::format("{}", ++ticks) : std::string());
   }
   return out;
 }
@@ -131,13 +154,12 @@ std::string facts(const Recording& recording) {
     row.text("t");
     for (const std::uint32_t fact : told) row.text(recording.names.cells[fact].name);
   }
-  double rested_s = 0.0, before_s = 0.0;   // without power, or waiting for a button, the mind does not tick and its clock stands still
+  double rested_s = 0.0, before_s = 0.0;
   for (const Frame& frame : recording.frames) {
-    const bool rests = frame.status == "off" || frame.status == "waits";
-    if (rests) rested_s += frame.t_s - before_s;
+    if (rests(frame)) rested_s += frame.t_s - before_s;
     before_s = frame.t_s;
     apply(frame, values);
-    if (rests) continue;
+    if (rests(frame)) continue;
     Row row(out);
     row.number(std::round((frame.t_s - rested_s) * 1e6) / 1e6);
     for (const std::uint32_t fact : told) row.certainty(values[fact]);

@@ -24,8 +24,9 @@ namespace kb::sim::report {
 /// instants, facts as counters. A rule that fires at tick after tick is one instant, at the first of them.
 [[nodiscard]] std::string chrome_trace(const Recording& recording);
 
-/// One row for each frame: `t`, the true pose, the senses, the facts by name, then `strategy`, `leg`, `status`, `notes`. SI units.
-/// A sensor that is silent leaves its fields empty; a fact that is not a number says `nan`.
+/// One row for each frame: `t`, the true pose, the senses, the facts by name, then `strategy`, `leg`, `status`, `notes`, `tick`. SI units.
+/// A sensor that is silent leaves its fields empty; a fact that is not a number says `nan`. A fact that is called as another column stands
+/// there as `fact:NAME`. `tick` is the number that the trace and `kbc why` give the decision of this row; empty while the mind rests.
 [[nodiscard]] std::string csv(const Recording& recording);
 
 /// The facts that the mind was given, as `kbc run --facts` reads them: `t`, then each fact that was given at some tick; one row for

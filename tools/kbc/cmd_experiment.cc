@@ -19,6 +19,7 @@
 #include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
 #include "tools/kbc/experiment_minds.h"
+#include "tools/kbc/experiment_show.h"
 #include "tools/kbc/interrupts.h"
 #include "tools/kbc/source_print.h"
 #include "tools/kbc/support.h"
@@ -86,36 +87,6 @@ bool fits(const lab::Setup& setup, const std::string& maze, Session& session) {
   }
 }
 
-/// False (reported) if there is a file with other contents: the user has not named it, so it must not be overwritten.
-bool may_make(const Session::OutputFile& file, Session& session) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file.path, ignored)) return true;
-  std::string error;
-  if (trace::read_all(file.path, file.bytes.size(), error) == file.bytes) return true;
-  session.report(Kind::kCannotWrite, {file.path, "it is there already and says something else; remove it, or name another folder"});
-  return false;
-}
-
-/// The files of one scenario, to be driven with `kbc sim`.
-int show(const ExperimentOptions& options, const lab::Setup& setup, std::string mind, Session& session) {
-  std::error_code ignored;
-  if (!mind.empty()) mind = std::filesystem::proximate(mind, options.out, ignored).generic_string();
-  for (const lab::Group& group : lab::groups_of(setup)) {
-    for (const std::uint32_t scenario : group.scenarios) {
-      if (scenario != *options.show) continue;
-      const lab::Ground ground = lab::ground_of_number(setup, group.labyrinth, session.files());
-      const lab::Prepared prepared(setup, group, ground, session.files());
-      const float size = lab::size_of(setup.set.front());
-      const std::vector<Session::OutputFile> files{{in_folder(options, "mission.kb"), prepared.mission(mind, size)},
-                                                   {in_folder(options, "scenario.toml"), prepared.case_of(scenario, size).scenario}};
-      const bool free = std::all_of(files.begin(), files.end(), [&](const auto& file) { return may_make(file, session); });
-      return free && session.write_files(files) ? session.exit_code() : static_cast<int>(kErrors);
-    }
-  }
-  session.report(Kind::kExperimentNoScenario, {fmt::format("{}", *options.show), fmt::format("{}", setup.scenarios)});
-  return kErrors;
-}
-
 /// Drives all runs that are missing. False if some are still missing afterwards.
 bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Results& results, Session& session) {
   const std::size_t all = count_runs(setup), before = count_done(setup, results);
@@ -144,14 +115,18 @@ bool run_rest(const ExperimentOptions& options, const lab::Setup& setup, lab::Re
   return count == all;
 }
 
+/// Writes those files of the results that do not say it yet: a finished experiment may lie where nothing can be written.
 bool write_results(const ExperimentOptions& options, const lab::Setup& setup, const lab::Results& results, Session& session) {
   const auto rows = results.sorted();
   const auto shares = lab::summarise(rows);
   const std::string table = lab::print_table(shares, setup.set) + lab::print_kinds(rows, setup.set);
-  if (!session.write_files({{in_folder(options, "runs.csv"), results.print()}, {in_folder(options, "table.md"), table},
-                            {in_folder(options, "outcomes.svg"), lab::draw_outcomes(shares, setup.set)}, {in_folder(options, "times.svg"), lab::draw_times(shares, setup.set)}})) {
-    return false;
-  }
+  std::vector<Session::OutputFile> files{{in_folder(options, "runs.csv"), results.print()}, {in_folder(options, "table.md"), table},
+                                         {in_folder(options, "outcomes.svg"), lab::draw_outcomes(shares, setup.set)}, {in_folder(options, "times.svg"), lab::draw_times(shares, setup.set)}};
+  std::erase_if(files, [](const Session::OutputFile& file) {
+    std::string error;
+    return trace::read_all(file.path, SIZE_MAX, error) == file.bytes;
+  });
+  if (!session.write_files(files)) return false;
   session.print(table);
   return true;
 }
@@ -164,21 +139,55 @@ bool copy(const std::string& from, const std::string& to, Session& session) {
   return bytes && session.write_files({{to, std::move(*bytes)}});
 }
 
+/// Whether these are results to go on with. If not, it is reported.
+bool are_ours(const ExperimentOptions& options, lab::Results::Opened opened, const lab::Results& results, Session& session) {
+  using Opened = lab::Results::Opened;
+  constexpr const char* kRemove = ", or remove its runs.part and runs.csv";
+  if (opened == Opened::kFailed) session.report(Kind::kCannotWrite, {in_folder(options, "runs.part"), results.error()});
+  if (opened == Opened::kOther) session.report(Kind::kExperimentOther, {options.out, "the runs of another experiment (" + results.error() + ")", kRemove});
+  if (opened == Opened::kNotOurs) session.report(Kind::kExperimentOther, {options.out, results.error(), ""});
+  if (opened == Opened::kOtherMind) session.report(Kind::kExperimentOtherMind, {options.out, results.error()});
+  return opened == Opened::kOpen;
+}
+
+/// The runs that are there, or are to be.
+struct Folder {
+  std::string fingerprint;
+  lab::Results::Minds minds;
+};
+
+/// The exit code if the folder holds all of the experiment, which is then printed, or cannot hold it; nothing if something is to be driven.
+std::optional<int> print_finished(const ExperimentOptions& options, const lab::Setup& setup, const Folder& folder, Session& session) {
+  lab::Results results;
+  const std::string whole = in_folder(options, "runs.csv");
+  const auto opened = results.look(whole, folder.fingerprint, setup, folder.minds);
+  if (opened == lab::Results::Opened::kFailed) session.report(Kind::kCannotRead, {whole, results.error()});
+  else static_cast<void>(are_ours(options, opened, results, session));
+  if (opened != lab::Results::Opened::kOpen) return kErrors;
+  const bool all = results.bad_line() == 0 && count_done(setup, results) == count_runs(setup);
+  if (!all) return std::nullopt;
+  return write_results(options, setup, results, session) ? session.exit_code() : static_cast<int>(kErrors);
+}
+
 /// Opens the results that exist, drives the rest, and writes the results.
-int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const lab::Results::Minds& minds, Session& session) {
+int drive_all(const ExperimentOptions& options, const lab::Setup& setup, const Folder& folder, Session& session) {
   std::error_code failed;
   const std::string part = in_folder(options, "runs.part"), whole = in_folder(options, "runs.csv");
-  // If the experiment is complete, its file is just a file of results: with the same options nothing is left to run.
+  if (!std::filesystem::exists(part, failed) && std::filesystem::exists(in_folder(options, "shards"), failed)) {
+    session.report(Kind::kExperimentOther, {options.out, "a batch of `kbc fleet`", ""});
+    return kErrors;
+  }
+  // If the experiment is complete, its file is just a file of results: with other methods it goes on from there.
   const bool complete = std::filesystem::exists(whole, failed) && !std::filesystem::exists(part, failed);
-  if (complete && !copy(whole, part, session)) return kErrors;
+  if (complete) {
+    if (const auto code = print_finished(options, setup, folder, session)) return *code;
+    if (!copy(whole, part, session)) return kErrors;
+  }
   lab::Results results;
-  using Opened = lab::Results::Opened;
-  const auto opened = results.open(part, lab::fingerprint(setup, fmt::format("{} {}", KB_VERSION, source_print()), session.files()), setup, minds);
-  if (opened == Opened::kFailed) session.report(Kind::kCannotWrite, {part, results.error()});
-  if (opened == Opened::kOther) session.report(Kind::kExperimentOther, {options.out});
-  if (opened == Opened::kOtherMind) session.report(Kind::kExperimentOtherMind, {options.out, results.error()});
-  if (complete && (opened == Opened::kOther || opened == Opened::kOtherMind)) std::filesystem::remove(part, failed);
-  if (session.exit_code() != kClean) return kErrors;
+  if (!are_ours(options, results.open(part, folder.fingerprint, setup, folder.minds), results, session)) return kErrors;
+  if (results.bad_line() != 0) {
+    session.remark(fmt::format("line {} of `{}` is no result of this experiment: its run and those of the lines behind it are driven again", results.bad_line(), complete ? whole : part));
+  }
   if (!run_rest(options, setup, results, session)) {
     if (session.exit_code() != kClean) return kErrors;
     session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", count_done(setup, results), count_runs(setup)));
@@ -210,6 +219,11 @@ int run_experiment(const ExperimentOptions& options, Session& session) {
   lab::Setup setup{options.scenarios, options.labyrinths, options.seed, nullptr, session.library(), lab::built_in_methods(), std::move(*set)};
   setup.methods.insert(setup.methods.end(), minds->begin(), minds->end());
   if (!choose_methods(options, setup, session)) return kErrors;
+  const lab::Method* shown = nullptr;
+  if (options.show) {
+    shown = method_to_show(setup, options.methods, session);
+    if (shown == nullptr || !one_setting(options.set, session)) return kErrors;
+  }
   if (!are_few_enough(setup.scenarios, "scenarios", setup.methods.size() * setup.set.size(), session)) return kErrors;
   std::optional<planners::MapFile> maze;
   if (!options.maze.empty()) {
@@ -223,9 +237,10 @@ int run_experiment(const ExperimentOptions& options, Session& session) {
     session.report(Kind::kCannotMakeFolder, {options.out, *failed});
     return kErrors;
   }
-  if (options.show) return show(options, setup, minds->empty() ? std::string() : minds->front().mind, session);
+  if (shown != nullptr) return show_scenario(setup, *shown, *options.show, options.out, session);
   try {
-    return drive_all(options, setup, *fingerprints, session);
+    const std::string program = fmt::format("{} {}", KB_VERSION, source_print());
+    return drive_all(options, setup, {lab::fingerprint(setup, program, session.files()), *fingerprints}, session);
   } catch (const lab::MindFails& fails) {
     const std::string said = fails.what();
     session.report(Kind::kExperimentMindFails, {fails.mind, fmt::format("{}", fails.scenario), said.substr(0, said.find('\n'))});
@@ -248,7 +263,7 @@ Run setup_experiment(CLI::App& app) {
   add_set_option(app, options->set);
   app.add_option("--method", options->methods, "Only this one: mts, programmed, bug2 or a mind's name; may be given again (all). What is missing can be added later")
       ->allow_extra_args(false)->type_name("NAME");
-  app.add_option("--show", options->show, "Drive nothing: write mission.kb and scenario.toml of this scenario, for `kbc sim`")->type_name("N")->transform(is_whole_number("scenario"));
+  app.add_option("--show", options->show, "Drive nothing: write mission.kb and scenario.toml of this scenario, with --set, for `kbc sim`")->type_name("N")->transform(is_whole_number("scenario"));
   app.callback([options] {
     if (!options->maze.empty() && options->labyrinths < 4) throw CLI::ValidationError("--maze", "every fourth labyrinth is a window of it, so there have to be --labyrinths 4 or more");
   });

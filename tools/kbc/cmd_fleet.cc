@@ -20,6 +20,7 @@
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/fleet_shards.h"
 #include "tools/kbc/interrupts.h"
+#include "tools/kbc/row_names.h"
 #include "tools/kbc/source_print.h"
 
 namespace kb::cli {
@@ -36,7 +37,7 @@ struct FleetOptions {
   std::string seeds = "1", share, out, expect;
   std::uint32_t robots = 1;
   unsigned jobs = 0;
-  bool merge = false;
+  bool merge = false, status = false;
 };
 
 /// Shard k is mine if k % of == mine.
@@ -67,32 +68,45 @@ bool read_share(const std::string& text, Share& share, Session& session) {
   return false;
 }
 
-/// The name of a scenario in the results: its file's name, without characters that have a meaning in CSV or Markdown.
-std::string row_name(const std::string& path) {
-  std::string name = path.empty() ? "plain" : std::filesystem::path(path).stem().string();
-  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; };
-  std::replace_if(name.begin(), name.end(), [&](char c) { return !plain(c); }, '_');
-  return name;
+struct NamedFile { std::string path, name; };
+
+/// The scenarios with their names in the results: those given with `FILE=NAME`, else the files' own, made plain. Nothing (reported) if one cannot
+/// be a name, or two are the same.
+std::optional<std::vector<NamedFile>> named_scenarios(const std::vector<std::string>& options, Session& session) {
+  if (options.empty()) return std::vector<NamedFile>{{"", "plain"}};
+  std::vector<NamedFile> all;
+  for (const std::string& option : options) {
+    auto [path, name] = file_and_name(option);
+    const bool given = option != path;
+    if (!given) name = plain_name(std::filesystem::path(path).stem().string());
+    if (const std::string_view why = refused_name(name); !why.empty()) {
+      session.report(Kind::kResultName, {name, "scenario", why});
+      return std::nullopt;
+    }
+    for (const NamedFile& other : all) {
+      if (other.name != name) continue;
+      session.report(Kind::kFleetSameName, {other.path, path, name});
+      return std::nullopt;
+    }
+    all.push_back({std::move(path), std::move(name)});
+  }
+  return all;
 }
 
 /// A batch that can be driven. Does not move.
 struct Prepared {
   std::unique_ptr<DriveGround> ground;
   std::unique_ptr<Batch> batch;
-  std::string fingerprint;
+  BatchParts parts;
 };
 
-bool read_scenarios(const FleetOptions& options, const sim::Combinations& set, DriveGround& ground, std::vector<sim::batch::NamedScenario>& scenarios,
+bool read_scenarios(const std::vector<NamedFile>& files, const sim::Combinations& set, DriveGround& ground, std::vector<sim::batch::NamedScenario>& scenarios,
                     Session& session) {
   auto messages = session.diagnostics(ground.compiled->sources);
-  const std::vector<std::string> paths = options.scenarios.empty() ? std::vector<std::string>{""} : options.scenarios;
   bool good = true;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    const std::string name = row_name(paths[i]);
-    const auto same = std::find_if(paths.begin(), paths.begin() + static_cast<std::ptrdiff_t>(i), [&](const std::string& other) { return row_name(other) == name; });
-    if (same != paths.begin() + static_cast<std::ptrdiff_t>(i)) messages.report(Kind::kFleetSameName, {}, {*same, paths[i], name});
+  for (const auto& [path, name] : files) {
     for (const std::vector<sim::Setting>& settings : set) {
-      auto scene = ground.scene(paths[i], settings, session, messages);
+      auto scene = ground.scene(path, settings, session, messages);
       good = good && scene.has_value() && messages.errors() == 0;
       if (!good) break;
       std::vector<std::string> values;
@@ -103,39 +117,55 @@ bool read_scenarios(const FleetOptions& options, const sim::Combinations& set, D
   return good;
 }
 
-// Everything that a row depends on, including the names of scenarios, but no paths: in another folder the batch is the same.
-std::string fingerprint_of(const FleetOptions& options, const sim::batch::BatchOptions& batch, const DriveGround& ground,
-                           const std::vector<sim::batch::NamedScenario>& scenarios) {
-  source::Fingerprint print;
-  print.mix(fmt::format("{} {} {} {} {} {}\n", source_print(), batch.first_seed, batch.last_seed, batch.robots, batch.dt_us, options.ground.scale.value_or(0.0)));
-  for (const std::string& stub : options.ground.stub) print.mix(stub + "\n");
-  for (const auto& scenario : scenarios) print.mix(scenario.name + "\n");
-  const source::Sources& sources = ground.compiled->sources;
-  for (std::size_t i = 0; i < sources.size(); ++i) {
+void mix(source::Fingerprint& print, const source::Sources& sources, std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) {
     const std::string_view bytes = sources.bytes(source::FileId{static_cast<std::uint32_t>(i)});
     print.mix(fmt::format("{}\n", bytes.size()));
     print.mix(bytes);
   }
-  if (ground.background) print.mix(ground.background->grid.all_moves());
-  return fmt::format("{:016x}", print.value());
+}
+
+// Everything that a row depends on, including the names of scenarios, but no paths: in another folder the batch is the same. The first `rules`
+// sources are those of the knowledge base.
+BatchParts parts_of(const FleetOptions& options, const sim::batch::BatchOptions& batch, const DriveGround& ground,
+                    const std::vector<sim::batch::NamedScenario>& scenarios, std::size_t rules) {
+  const auto text = [](const source::Fingerprint& print) { return fmt::format("{:016x}", print.value()); };
+  const source::Sources& sources = ground.compiled->sources;
+  source::Fingerprint knowledge, what, how;
+  mix(knowledge, sources, 0, rules);
+  for (const auto& scenario : scenarios) what.mix(scenario.name + "\n");
+  mix(what, sources, rules, sources.size());
+  how.mix(fmt::format("{} {}\n", batch.dt_us, options.ground.scale.value_or(0.0)));
+  for (const std::string& stub : options.ground.stub) how.mix(stub + "\n");
+  if (ground.background) how.mix(ground.background->grid.all_moves());
+  return {{"kbc", source_print()},
+          {"knowledge base", text(knowledge)},
+          {"scenarios", text(what)},
+          {"seeds", fmt::format("{}-{}", batch.first_seed, batch.last_seed)},
+          {"robots", fmt::format("{}", batch.robots)},
+          {"options", text(how)}};
 }
 
 bool prepare(const FleetOptions& options, Prepared& prepared, Session& session) {
   sim::batch::BatchOptions how;
   how.robots = options.robots;
   if (!read_seeds(options.seeds, how, session)) return false;
+  const auto files = named_scenarios(options.scenarios, session);
+  if (!files) return false;
   const auto set = combinations(options.ground.set, [](std::string_view key) { return key == "seed" ? "`--seeds` names the seeds" : std::string(); }, session);
   if (!set) return false;
   for (const sim::Setting& setting : set->front()) how.keys.push_back(setting.key);
   const std::uint64_t seeds = how.last_seed - how.first_seed + 1;
   const std::uint64_t each = std::max<std::uint64_t>(options.scenarios.size(), 1) * set->size() * how.robots;
   if (!are_few_enough(seeds, "seeds", each, session)) return false;
-  prepared.ground = prepare_ground(options.ground, session);
+  auto compiled = session.compile(options.ground.file, driver::Stage::kTables);
+  const std::size_t rules = compiled->sources.size();
+  prepared.ground = prepare_ground(options.ground, std::move(compiled), session);
   if (!prepared.ground) return false;
   how.dt_us = prepared.ground->dt_us;
   std::vector<sim::batch::NamedScenario> scenarios;
-  if (!read_scenarios(options, *set, *prepared.ground, scenarios, session)) return false;
-  prepared.fingerprint = fingerprint_of(options, how, *prepared.ground, scenarios);
+  if (!read_scenarios(*files, *set, *prepared.ground, scenarios, session)) return false;
+  prepared.parts = parts_of(options, how, *prepared.ground, scenarios, rules);
   prepared.batch = std::make_unique<Batch>(*prepared.ground->knowledge, std::move(scenarios), how);
   return true;
 }
@@ -219,14 +249,24 @@ bool read_expected(const std::string& text, std::vector<sim::batch::Demand>& exp
   return read.has_value();
 }
 
+/// Says how much of the batch is there, and prints the table of that.
+int tell_status(const Batch& batch, const BatchFiles& files, std::size_t shards, Session& session) {
+  auto runs = files.runs(session);
+  if (!runs) return kErrors;
+  const std::size_t missing = files.missing().size();
+  session.print(fmt::format("{} of {} runs are done, {} of {} shards\n\n", runs->size(), batch.runs(), shards - missing, shards) + sim::batch::summarise(batch, *runs));
+  return session.exit_code();
+}
+
 int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session& session) {
   Prepared prepared;
   std::vector<sim::batch::Demand> expected;
   if (!read_expected(options.expect, expected, session) || !prepare(options, prepared, session)) return kErrors;
   std::vector<std::size_t> wanted;
   for (std::size_t shard = share.mine; shard < prepared.batch->shards(); shard += share.of) wanted.push_back(shard);
-  BatchFiles files(options.out, *prepared.batch, prepared.fingerprint);
+  BatchFiles files(options.out, *prepared.batch, prepared.parts);
   if (!files.open(session, wanted)) return kErrors;
+  if (options.status) return tell_status(*prepared.batch, files, wanted.size(), session);
   if (options.merge && !files.missing().empty()) {
     session.report(Kind::kFleetMissing, {fmt::format("{}", files.missing().size()), fmt::format("{}", prepared.batch->shards()), files.shard_path(files.missing().front())});
     return kErrors;
@@ -235,7 +275,7 @@ int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session
     const std::size_t all = runs_of(*prepared.batch, wanted);
     const Wanted runs{all, all - runs_of(*prepared.batch, files.missing())};
     if (!files.claim(session)) return kErrors;
-    if (session.launch().ranks != nullptr) session.launch().ranks->announce(prepared.fingerprint);
+    if (session.launch().ranks != nullptr) session.launch().ranks->announce(fingerprint_of(prepared.parts));
     if (!drive_missing(prepared, files, runs, jobs, session)) return session.exit_code() != kClean ? kErrors : kInterrupted;
     if (!files.claimed_all(session)) return kErrors;
   }
@@ -257,7 +297,7 @@ int follow(const FleetOptions& options, unsigned jobs, Ranks& ranks, Session& se
   if (wanted.empty()) return kClean;
   Prepared prepared;
   if (!prepare(options, prepared, session)) return kErrors;
-  if (prepared.fingerprint != wanted) {
+  if (fingerprint_of(prepared.parts) != wanted) {
     session.report(Kind::kFleetRankOther, {fmt::format("{}", ranks.rank())});
     return kErrors;
   }
@@ -274,7 +314,7 @@ bool is_rank(const FleetOptions& options) {
     const char* size = std::getenv(variable);
     if (size != nullptr && std::string_view(size) == "1") return false;
   }
-  const bool told = !options.share.empty() || options.merge;
+  const bool told = !options.share.empty() || options.merge || options.status;
   return !told && (std::getenv("PMIX_RANK") != nullptr || std::getenv("PMI_RANK") != nullptr);
 }
 
@@ -302,7 +342,9 @@ int run_fleet(const FleetOptions& options, Session& session) {
 Run setup_fleet(CLI::App& app) {
   auto options = std::make_shared<FleetOptions>();
   add_ground_options(app, options->ground);
-  app.add_option("--scenario", options->scenarios, "What happens, TOML; may be given often; without it nothing goes wrong")->type_name("FILE")->allow_extra_args(false);
+  app.add_option("--scenario", options->scenarios, "What happens, TOML; may be given often, and with a name for the results; without it nothing goes wrong")
+      ->type_name("FILE=NAME")
+      ->allow_extra_args(false);
   app.add_option("--seeds", options->seeds, "Seeds of all noise: one, or the first and the last, 1-100")->type_name("RANGE")->capture_default_str();
   app.add_option("--robots", options->robots, "For each scenario and seed, each with noise of its own; they do not meet")
       ->transform(is_count(1, 1'000'000))
@@ -310,8 +352,9 @@ Run setup_fleet(CLI::App& app) {
   app.add_option("--out", options->out, "The folder for the results; an interrupted batch goes on there")->required()->type_name("DIR");
   app.add_option("--jobs", options->jobs, "How many runs at once (all cores; 1 for each rank of MPI); the results do not depend on it")->transform(is_count(1, 1024));
   auto* share = app.add_option("--shard", options->share, "Drive the i-th of n shares only, and leave the rest to others")->type_name("i/n");
-  app.add_option("--expect", options->expect, "Fail unless each row of the table meets this: arrived>=95%,collisions=0")->type_name("DEMAND,...")->excludes(share);
-  app.add_flag("--merge", options->merge, "Drive nothing: put the shards together that others have driven")->excludes(share);
+  auto* expect = app.add_option("--expect", options->expect, "Fail unless each row of the table meets this: arrived>=95%,collisions=0")->type_name("DEMAND,...")->excludes(share);
+  auto* merge = app.add_flag("--merge", options->merge, "Drive nothing: put the shards together that others have driven")->excludes(share);
+  app.add_flag("--status", options->status, "Drive and write nothing: say how much is done, with the table of that")->excludes(share)->excludes(merge)->excludes(expect);
   return [options](Session& session) { return run_fleet(*options, session); };
 }
 

@@ -51,9 +51,9 @@ struct SimOptions {
   }
 };
 
-bool write_reports(const SimOptions& options, const sim::Recording& recording, const sim::Summary& summary, double scale, Session& session) {
+bool write_reports(const SimOptions& options, const sim::Recording& recording, const std::string& summary, Session& session) {
   std::vector<Session::OutputFile> files;
-  if (!options.summary.empty()) files.push_back({options.summary, summary_json(summary, scale)});
+  if (!options.summary.empty()) files.push_back({options.summary, summary});
   const auto add = [&](const std::string& path, std::string (*make)(const sim::Recording&)) {
     if (!path.empty()) files.push_back({path, make(recording)});
   };
@@ -138,7 +138,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
     messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
     return kErrors;
   }
-  if (!write_reports(options, recording, drive.summary(), labyrinth.scale, session)) return kErrors;
+  if (!write_reports(options, recording, summary_json(drive.summary(), labyrinth.scale, scene.scenario.seed), session)) return kErrors;
   if (!options.to_stdout()) session.print(print_summary(drive.summary(), labyrinth.scale, scene.scenario.limit_s));
   hint_at_clock(options, drive.summary(), session);
   if (options.expect) compare(drive.summary(), {*options.expect, options.allow}, messages);

@@ -95,7 +95,7 @@ std::string print_summary(const sim::Summary& summary, double scale, double limi
   return out;
 }
 
-std::string summary_json(const sim::Summary& summary, double scale) {
+std::string summary_json(const sim::Summary& summary, double scale, std::uint64_t seed) {
   Json missed = Json::array(), faults = Json::array(), closest = nullptr;
   if (const auto& near = summary.closest) closest = {{"gap_m", rounded(near->gap_m)}, {"t_s", rounded(near->t_s)}, {"what", near->what}};
   for (const auto& fault : summary.faults) {
@@ -117,7 +117,10 @@ std::string summary_json(const sim::Summary& summary, double scale) {
                  {"faults", faults},
                  {"never_happened", missed},
                  {"lost_unaware", summary.lost_unaware()},
-                 {"unaware_s", rounded(summary.unaware_s)}};
+                 {"unaware_s", rounded(summary.unaware_s)},
+                 {"last_moved_s", rounded(summary.last_moved_s)},
+                 {"scale", scale},
+                 {"seed", seed}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

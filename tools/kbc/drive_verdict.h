@@ -1,6 +1,7 @@
 // The result of one drive, in words and as JSON, and whether it is as expected.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,8 +13,8 @@ namespace kb::cli {
 
 /// For people. `scale`: metres of the floor for a metre of the map.
 [[nodiscard]] std::string print_summary(const sim::Summary& summary, double scale, double limit_s);
-/// The same for programs, with a line break; docs/simulator.md describes the form.
-[[nodiscard]] std::string summary_json(const sim::Summary& summary, double scale);
+/// The same for programs, with a line break; docs/outputs.md describes the form. `seed`: that of the noise of this drive.
+[[nodiscard]] std::string summary_json(const sim::Summary& summary, double scale, std::uint64_t seed);
 
 /// The values of --expect and --allow.
 struct Expectation {

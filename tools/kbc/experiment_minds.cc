@@ -8,6 +8,7 @@
 #include "compiler/model/standard_names.h"
 #include "compiler/source/fingerprint.h"
 #include "sim/mind/control_words.h"
+#include "tools/kbc/row_names.h"
 
 namespace kb::cli {
 namespace {
@@ -60,20 +61,23 @@ bool check(const lab::Setup& setup, const lab::Prepared& mission, const std::str
 std::optional<std::vector<lab::Method>> read_minds(const std::vector<std::string>& options, Session& session) {
   std::vector<lab::Method> minds;
   const auto refused = [&](const std::string& name, std::string_view why) {
-    session.report(Kind::kExperimentMindName, {name, why});
+    session.report(Kind::kResultName, {name, "mind", why});
     return std::nullopt;
   };
   for (const std::string& option : options) {
-    const std::size_t equals = option.rfind('=');
-    std::string file = option.substr(0, equals);
-    const std::string name = equals == std::string::npos ? std::filesystem::path(file).stem().string() : option.substr(equals + 1);
-    const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
-    if (name.empty() || !std::all_of(name.begin(), name.end(), plain)) return refused(name, "letters, digits, `_` and `-` can");
+    auto [file, name] = file_and_name(option);
+    if (name.empty()) name = std::filesystem::path(file).stem().string();
+    if (const std::string_view why = refused_name(name); !why.empty()) return refused(name, why);
     for (const auto& known : {lab::built_in_methods(), minds}) {
-      if (std::any_of(known.begin(), known.end(), [&](const lab::Method& m) { return m.name == name; })) return refused(name, "there is one already");
+      const bool there = std::any_of(known.begin(), known.end(), [&, &wanted = name](const lab::Method& m) { return m.name == wanted; });
+      if (there) return refused(name, "there is one already");
     }
     // Otherwise the file would be taken for the mission that imports it.
     if (std::filesystem::path(file).lexically_normal() == kMission) file = std::filesystem::absolute(file).string();
+    if (file.find_first_of("\"\n\r") != std::string::npos) {
+      session.report(Kind::kCannotRead, {file, "the mission is to import it, and no import can name a file with a quote or a line break in its path"});
+      return std::nullopt;
+    }
     if (auto read = session.files().read(file); !read.bytes) {   // as an import of the mission it would be reported in a file that nobody wrote
       session.report(Kind::kCannotRead, {file, read.error});
       return std::nullopt;

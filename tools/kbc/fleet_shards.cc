@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "compiler/source/fingerprint.h"
 #include "compiler/source/numbers.h"
 #include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/stream.h"
@@ -60,12 +61,36 @@ struct BatchFiles::Text {
   }
 };
 
-BatchFiles::BatchFiles(std::string folder, const Batch& batch, std::string fingerprint)
-    : folder_(std::move(folder)), batch_(batch), head_(fmt::format("# kbc fleet, batch {}, {} runs", fingerprint, batch.runs())) {}
+std::string fingerprint_of(const BatchParts& parts) {
+  source::Fingerprint print;
+  for (const auto& [name, value] : parts) print.mix(fmt::format("{} {}\n", name, value));
+  return fmt::format("{:016x}", print.value());
+}
+
+BatchFiles::BatchFiles(std::string folder, const Batch& batch, BatchParts parts)
+    : folder_(std::move(folder)), batch_(batch), parts_(std::move(parts)), head_(fmt::format("# kbc fleet, batch {}, {} runs", fingerprint_of(parts_), batch.runs())) {
+  for (const auto& [name, value] : parts_) head_ += fmt::format(", {} {}", name, value);
+}
 
 std::string BatchFiles::path(std::string_view name) const { return (std::filesystem::path(folder_) / name).string(); }
 std::string BatchFiles::shard_path(std::size_t shard) const { return path(fmt::format("shards/{:04}.csv", shard + 1)); }
 std::string BatchFiles::shard_head(std::size_t shard) const { return fmt::format("{}, shard {} of {}", head_, shard + 1, batch_.shards()); }
+
+/// Of what results are that do not begin as those of this batch do.
+std::string BatchFiles::differs(std::string_view there) const {
+  if (!there.starts_with("# kbc fleet, batch ")) return there.starts_with("# kbc ") ? "an experiment; name another folder" : "no batch; name another folder";
+  const std::string_view line = there.substr(0, there.find('\n'));
+  std::string items;
+  for (const auto& [name, value] : parts_) {
+    const std::size_t at = line.find(", " + name + " ");
+    const std::string_view rest = at == std::string_view::npos ? std::string_view() : line.substr(at + name.size() + 3);
+    const std::string_view other = rest.substr(0, rest.find(','));
+    if (other == value) continue;
+    const bool number = name == "seeds" || name == "robots", several = name == "scenarios" || name == "options";
+    items += (items.empty() ? "" : ", ") + (number ? fmt::format("{} {} instead of {}", name, other, value) : (several ? "other " : "another ") + name);
+  }
+  return fmt::format("another batch ({}); name another folder, or remove what is in this one", items.empty() ? "other options" : items);
+}
 
 bool BatchFiles::read_head(Text& file, const std::string& head, Session& session) const {
   if (!file.load(session)) return false;
@@ -73,7 +98,7 @@ bool BatchFiles::read_head(Text& file, const std::string& head, Session& session
   file.rows_at = begin.size();
   if (file.bytes.starts_with(begin)) return true;
   if (begin.starts_with(file.bytes)) file.complain(session, Kind::kFleetDamaged, file.bytes.size(), {"the head of the table"});
-  else file.complain(session, Kind::kFleetOther, 0, {});
+  else file.complain(session, Kind::kFleetOther, 0, {differs(file.bytes)});
   return false;
 }
 
@@ -107,6 +132,7 @@ bool BatchFiles::open(Session& session, const std::vector<std::size_t>& wanted) 
     Text file{shard_path(shard), {}, 0};
     if (!std::filesystem::exists(file.path, ignored)) missing_.push_back(shard);
     else if (!read(file, shard_head(shard), batch_.block(shard), nullptr, session)) return false;
+    else there_.push_back(shard);
   }
   for (std::size_t shard = 0; shard < batch_.shards(); ++shard) {   // of the others one tells whose they are
     Text file{shard_path(shard), {}, 0};
@@ -114,6 +140,17 @@ bool BatchFiles::open(Session& session, const std::vector<std::size_t>& wanted) 
     return read_head(file, shard_head(shard), session);
   }
   return true;
+}
+
+std::optional<std::vector<sim::batch::Run>> BatchFiles::runs(Session& session) const {
+  std::vector<sim::batch::Run> runs;
+  const auto take = [&](const std::string& from, const std::string& head, Batch::Block block) {
+    Text file{from, {}, 0};
+    return read(file, head, block, &runs, session);
+  };
+  const bool good = complete_ ? take(path("runs.csv"), head_, {0, batch_.runs()})
+                              : std::ranges::all_of(there_, [&](std::size_t shard) { return take(shard_path(shard), shard_head(shard), batch_.block(shard)); });
+  return good ? std::optional(std::move(runs)) : std::nullopt;
 }
 
 bool BatchFiles::claim(Session& session) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/batch/batch.h"
@@ -36,16 +37,24 @@ class Claims {
   bool locks_ = true;
 };
 
+/// What runs that belong together have in common: names, and values without a comma. The results tell by these in what a batch differs.
+using BatchParts = std::vector<std::pair<std::string, std::string>>;
+/// A number made of all of them.
+[[nodiscard]] std::string fingerprint_of(const BatchParts& parts);
+
 class BatchFiles {
  public:
-  /// `batch` must outlive it. `fingerprint` is equal for runs that belong together.
-  BatchFiles(std::string folder, const sim::batch::Batch& batch, std::string fingerprint);
+  /// `batch` must outlive it.
+  BatchFiles(std::string folder, const sim::batch::Batch& batch, BatchParts parts);
 
   /// Looks at the files there: at the shards in `wanted`, which ascend, and at the beginning of one of the others. False (reported, with the
   /// place) if one belongs to another batch, is damaged, or cannot be read.
   [[nodiscard]] bool open(Session& session, const std::vector<std::size_t>& wanted);
   /// The wanted shards that are missing, in order.
   [[nodiscard]] const std::vector<std::size_t>& missing() const { return missing_; }
+  /// The runs that are there, in order: of the whole batch, or of the wanted shards that `open` found. Nothing (reported) if one cannot be
+  /// read.
+  [[nodiscard]] std::optional<std::vector<sim::batch::Run>> runs(Session& session) const;
   /// Makes the folder of shards, and drops from the missing ones those that another process has in hand. Of the others it removes what
   /// processes left that were killed while they wrote. False (reported) if the folder cannot be made.
   [[nodiscard]] bool claim(Session& session);
@@ -69,12 +78,15 @@ class BatchFiles {
   void look_again();
   [[nodiscard]] static bool refuse(const std::string& path, Session& session);
   [[nodiscard]] std::string shard_head(std::size_t shard) const;
+  [[nodiscard]] std::string differs(std::string_view there) const;
   [[nodiscard]] bool read_head(Text& file, const std::string& head, Session& session) const;
   [[nodiscard]] bool read(Text& file, const std::string& head, sim::batch::Batch::Block block, std::vector<sim::batch::Run>* runs, Session& session) const;
   std::string folder_;
   const sim::batch::Batch& batch_;
+  BatchParts parts_;
   std::string head_;               // the first line of runs.csv
   bool complete_ = false;          // runs.csv holds the whole batch
+  std::vector<std::size_t> there_; // the wanted shards that were found
   std::vector<std::size_t> missing_;
   std::string elsewhere_;          // the first shard that another process has in hand; empty: there is none
   Claims claims_;

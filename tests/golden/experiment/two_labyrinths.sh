@@ -1,4 +1,5 @@
 # RUN LONG: kbc experiment --out %t/results --scenarios 8 --labyrinths 2 --seed 3 -q
+# RUN: kbc experiment --out %t/results --scenarios 8 --labyrinths 2 --seed 3 2>&1 > %t/again && grep -c . %t/again
 # RUN: kbc experiment --out %t/one --scenarios 4 --labyrinths 2 --seed 3 --jobs 1 -q > /dev/null && kbc experiment --out %t/two --scenarios 4 --labyrinths 2 --seed 3 --jobs 2 -q > /dev/null && diff -r %t/one %t/two && echo the same with one thread and with two
 # RUN: mkdir %t/torn && head -c 700 %t/one/runs.csv > %t/torn/runs.part && kbc experiment --out %t/torn --scenarios 4 --labyrinths 2 --seed 3 -q > /dev/null && diff -r %t/one %t/torn && echo the same after a torn line
 # RUN: mkdir %t/killed; bash -c "timeout -s KILL 0.2 kbc experiment --out %t/killed --scenarios 4 --labyrinths 2 --seed 3 --jobs 1 -q; true" > /dev/null 2>&1; kbc experiment --out %t/killed --scenarios 4 --labyrinths 2 --seed 3 -q > /dev/null && diff -r -x "*.??????" %t/one %t/killed && echo the same after a kill

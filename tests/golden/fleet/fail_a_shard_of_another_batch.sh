@@ -1,1 +1,1 @@
-# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8 --shard 1/2 -q; set -o pipefail; for more in '' '--shard 2/2'; do kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-9 $more 2>&1 | sed 's/batch [0-9a-f]*/batch NUMBER/'; done
+# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8 --shard 1/2 -q; set -o pipefail; for more in '' '--shard 2/2'; do kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-9 $more 2>&1 | sed 's/[0-9a-f]\{16\}/NUMBER/g'; done

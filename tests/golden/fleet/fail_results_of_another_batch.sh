@@ -1,1 +1,1 @@
-# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-2 -q > /dev/null; set -o pipefail; kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-2 --dt 50ms 2>&1 | sed 's/batch [0-9a-f]*/batch NUMBER/'
+# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-2 -q > /dev/null; set -o pipefail; kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-2 --dt 50ms 2>&1 | sed 's/[0-9a-f]\{16\}/NUMBER/g'

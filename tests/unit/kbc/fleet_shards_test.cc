@@ -30,7 +30,7 @@ class FleetShards : public ::testing::Test {
   }
 
   [[nodiscard]] std::unique_ptr<BatchFiles> opened() {
-    auto files = std::make_unique<BatchFiles>(folder_ + "/results", *batch_, "0123456789abcdef");
+    auto files = std::make_unique<BatchFiles>(folder_ + "/results", *batch_, BatchParts{{"kbc", "0123456789abcdef"}, {"seeds", "1-12"}});
     std::vector<std::size_t> all(batch_->shards());
     std::iota(all.begin(), all.end(), 0);
     EXPECT_TRUE(files->open(session_, all));

@@ -245,7 +245,27 @@ TEST(Csv, LeavesTheFieldsOfSilentSensorsEmpty) {
   recording.frames[0].senses.heading_known = true;
   recording.frames[0].senses.heading_rad = 1.5f;
   const std::string table = report::csv(recording);
-  EXPECT_EQ(table.substr(table.find('\n') + 1), "0,0,0,0,,,,,,,,,,,,,,1.5,,,,,0,,,,\n");
+  EXPECT_EQ(table.substr(table.find('\n') + 1), "0,0,0,0,,,,,,,,,,,,,,1.5,,,,,0,,,,,\n");
+}
+
+TEST(Csv, NumbersTheDecisionsAndNotTheTimeInWhichTheMindRests) {
+  Recording recording;
+  recording.frames.resize(5);
+  const char* const statuses[] = {"ok", "off", "waits", "no_strategy", "ok"};
+  for (std::size_t i = 0; i < 5; ++i) recording.frames[i].status = statuses[i];
+  std::istringstream rows(report::csv(recording));
+  std::string line, ticks;
+  std::getline(rows, line);
+  EXPECT_TRUE(line.ends_with(",tick")) << line;
+  while (std::getline(rows, line)) ticks += line.substr(line.rfind(',')) + ";";
+  EXPECT_EQ(ticks, ",1;,;,;,2;,3;");
+}
+
+TEST(Csv, HasNoTwoColumnsOfOneName) {
+  Recording recording;
+  for (const char* name : {"status", "t", "line_3", "Line", "tick"}) recording.names.cells.push_back({name, MindNames::Cell::Kind::kFact, 0.0f});
+  const std::string table = report::csv(recording);
+  EXPECT_NE(table.find(",touched,fact:status,fact:t,fact:line_3,Line,fact:tick,strategy,leg,status,notes,tick\n"), std::string::npos) << table;
 }
 
 TEST(Facts, AreThoseThatWereToldWithAllTheirDigits) {

@@ -14,3 +14,5 @@ for format in fll lif nav2 opentcs; do ask kbc import $format ''; done
 ask kbc plan --method ''
 ask kbc plan --method bug-
 ask kbc test --cov
+ask kbc fleet a.kb --scenario a.k
+ask kbc experiment --mind a.kb

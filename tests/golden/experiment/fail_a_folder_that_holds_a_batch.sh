@@ -1,0 +1,3 @@
+# RUN: cp ../../../examples/04_simulator/*.kb %t; cd %t && kbc fleet route1.kb --out whole --seeds 1 -q > /dev/null && kbc experiment --out whole --scenarios 2 --labyrinths 2; ls whole
+# RUN: cd %t && kbc fleet route1.kb --out part --seeds 1-8 --shard 1/2 -q && kbc experiment --out part --scenarios 2 --labyrinths 2; ls part
+# RUN: cd %t && kbc experiment --out lab --scenarios 2 --labyrinths 2 --method bug2 -q > /dev/null && kbc fleet route1.kb --out lab --seeds 1 2>&1 | sed 's/[0-9a-f]\{16\}/NUMBER/g'; ls lab; kbc experiment --out mine --scenarios 2 --labyrinths 2 --show 1 -q && echo mine > mine/runs.csv && kbc experiment --out mine --scenarios 2 --labyrinths 2

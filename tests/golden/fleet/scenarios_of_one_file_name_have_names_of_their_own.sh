@@ -1,0 +1,1 @@
+# RUN: cp ../../../examples/04_simulator/plain.toml %t && cp %t/plain.toml '%t/a=b.toml' && kbc fleet ../../../examples/04_simulator/route1.kb --scenario ../../../examples/04_simulator/plain.toml=one --scenario %t/plain.toml=two --scenario '%t/a=b.toml' --out %t/results -q > /dev/null && sed 1d %t/results/runs.csv | cut -d, -f1-4

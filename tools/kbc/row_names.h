@@ -1,0 +1,19 @@
+// Names of scenarios and minds in rows of results, which programs of all kinds read.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace kb::cli {
+
+/// `FILE=NAME`, or a FILE alone, whose name is empty then. A file whose own name has a `=` needs no name if it is there.
+[[nodiscard]] std::pair<std::string, std::string> file_and_name(const std::string& option);
+
+/// Why this cannot be a name in results; empty if it can.
+[[nodiscard]] std::string_view refused_name(std::string_view name);
+
+/// The name with each character replaced by `_` that has a meaning in CSV or Markdown.
+[[nodiscard]] std::string plain_name(std::string name);
+
+}  // namespace kb::cli
