@@ -7,6 +7,10 @@
 
 #include <cstddef>
 
+#include "heard.h"
+#include "senses.h"
+#include "stop_line.h"
+
 namespace mts {
 
 template <std::size_t kElements>
@@ -44,6 +48,34 @@ class Liveness {
   bool known_ = false, noisy_ = false;
   float noise_s_ = 0.0f;                       // how long its values have kept changing
   float same_m_ = 0.0f, same_s_ = 0.0f;        // since its values last changed
+};
+
+/// The line sensors and range finders of a robot. A sensor that is stuck counts as silent.
+class LiveSenses {
+ public:
+  /// Each period, before the senses are used: those that are stuck become unknown. `measured`: the darknesses were computed from a measured line, and
+  /// may stay the same for metres. `moved_m`: by how much the sensors moved, turns included.
+  constexpr void step(Senses& senses, bool measured, float moved_m, float dt_s) noexcept {
+    bool any_near = false;
+    for (const float range_m : senses.range_m) any_near = any_near || range_m < kOutOfRange;
+    front_known_ = knows_range(senses, 0) && knows_range(senses, 1) && knows_range(senses, kRangeFinders - 1);
+    line_.step(senses.line_known, senses.line, !measured, moved_m, dt_s);
+    ranges_.step(senses.range_known, senses.range_m, any_near, moved_m, dt_s);
+    senses.line_known = line_.sees();
+    senses.range_known = ranges_.sees();
+    paint_ = false;
+    for (const float darkness : senses.line) paint_ = paint_ || darkness > StopLine::kDarkFrom;
+  }
+  [[nodiscard]] constexpr bool line_sees() const noexcept { return line_.sees(); }
+  /// Without the range finders in front the robot drives blind.
+  [[nodiscard]] constexpr bool ranges_see() const noexcept { return ranges_.sees() && front_known_; }
+  /// Whether any line sensor is over paint.
+  [[nodiscard]] constexpr bool paint() const noexcept { return paint_; }
+
+ private:
+  Liveness<kLineSensors> line_;
+  Liveness<kRangeFinders> ranges_;
+  bool front_known_ = true, paint_ = false;
 };
 
 }  // namespace mts

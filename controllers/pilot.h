@@ -21,6 +21,7 @@
 
 #include "../runtime/control_line.h"
 #include "any_controller.h"
+#include "bind_line.h"
 #include "line_seeker.h"
 #include "on_road.h"
 #include "road_map.h"
@@ -35,10 +36,6 @@ class Pilot {
   using Id = ControllerId;
 
  public:
-  /// What a line calls the controller of halls that decides by the rules of the host (Host::decide). No knowledge base has such a name: there
-  /// it is that of a fuzzy controller.
-  static constexpr const char* kRules = "follow_rules";
-
   /// `body`: the robot's own, in its own metres, whatever its size. `host`: see AnyController::choose.
   explicit Pilot(const Body& body = {}, const Host& host = {}) noexcept : as_(body.size), body_(as_.in(body)), host_(host), place_(body) {}
 
@@ -47,7 +44,7 @@ class Pilot {
   /// Needs 7 KB of stack.
   [[nodiscard]] Setting fits(const ControlLine& line) const noexcept {
     AnyController trial;
-    return bind(trial, line);
+    return bind_line(trial, line, as_, body_, host_);
   }
 
   /// What the mind has decided: to be called after each of its ticks. `line`: null if nothing drives; one that does not fit lets the robot stand,
@@ -92,7 +89,8 @@ class Pilot {
   [[nodiscard]] const OnRoad& place() const noexcept { return place_; }
   /// The road of the present leg, as `choose` was told; null: unknown.
   [[nodiscard]] const MapRoad* road_of_leg() const noexcept { return roads_.road(); }
-  /// Whether a manoeuvre has begun since the robot last followed a road, and how far it has driven since.
+  /// Whether a manoeuvre has begun since the robot last followed a road, and how far it has driven since. After 60 km without a crossing the way no
+  /// longer grows: see reckoning.h.
   [[nodiscard]] bool in_crossing() const noexcept { return crossed_ && !aside_; }
   [[nodiscard]] float crossed_m() const noexcept { return place_.travelled_m() - entered_m_; }
   /// From the stop line by which it entered its last crossing to the middle of that.
@@ -157,35 +155,6 @@ class Pilot {
   }
 
  private:
-  [[nodiscard]] Setting bind(AnyController& controller, const ControlLine& line) const noexcept {
-    const ControllerEntry* entry = find_controller(line.controller);
-    const bool by_rules = host_.decide != nullptr && same_text(line.controller, kRules);
-    if (entry == nullptr && !by_rules) return Setting::kUnknown;
-    controller.choose(by_rules ? Id::kFollowRules : entry->id, body_, host_);
-    for (std::uint32_t i = 0; i < line.count; ++i) {
-      const Setting set = set_argument(controller, line.arguments[i]);
-      if (set != Setting::kSet) return set;
-    }
-    return Setting::kSet;
-  }
-  /// A value that bodies of this size may have, but not this one, as it is slower or broader, becomes the nearest that it can.
-  [[nodiscard]] Setting set_argument(AnyController& controller, const ControlArgument& argument) const noexcept {
-    if (argument.word[0] != '\0') return controller.set_word(argument.name, main_turn(argument.word));
-    const Parameter* parameter = find_parameter(controller.id(), argument.name);
-    if (parameter == nullptr) return Setting::kUnknown;
-    const float value = as_.in(argument.number, parameter->unit);
-    const float rounded = 1e-6f * greatest(magnitude(parameter->low), magnitude(parameter->high));   // by the conversion of sizes
-    const bool possible = value >= parameter->low - rounded && value <= greatest(parameter->high, highest(*parameter, body_)) + rounded;
-    if (!possible || (argument.unit[0] != '\0' && !same_text(argument.unit, parameter->unit)) || words_of(parameter->values).count > 0) return Setting::kOutside;
-    return controller.set(argument.name, clamped(value, lowest(*parameter, body_), highest(*parameter, body_)));
-  }
-
-  /// Of the turns of `std.compass8`, the one that controllers know; how far it goes is the map's business.
-  [[nodiscard]] static constexpr const char* main_turn(const char* word) noexcept {
-    if (same_text(word, "half_left") || same_text(word, "sharp_left")) return "left";
-    return same_text(word, "half_right") || same_text(word, "sharp_right") ? "right" : word;
-  }
-
   void begin(const Senses& senses) noexcept {
     suspend();
     const MapRoad* const back = drives_ && controller_.id() == Id::kTurnRound ? way_round() : nullptr;
@@ -202,7 +171,7 @@ class Pilot {
       followed_m_ = place_.travelled_m();
       return;
     }
-    drives_ = line_ != nullptr && bind(controller_, *line_) == Setting::kSet;
+    drives_ = line_ != nullptr && bind_line(controller_, *line_, as_, body_, host_) == Setting::kSet;
     if (line_ != nullptr && !drives_) left_ = false;   // a controller of the program's own may go anywhere
     if (!drives_) return controller_.choose(Id::kStand, body_);
     seeker_.begin(controller_.id());
@@ -293,7 +262,7 @@ class Pilot {
   /// To face back along the road, or along it if the robot faces back already; near a bend, and if the line gives another angle, by the angle.
   [[nodiscard]] Task round() const noexcept {
     Task task;
-    const ControlArgument* angle = find_argument("angle");
+    const ControlArgument* angle = find_argument(*running_, "angle");
     if (angle != nullptr && angle->number != 180.0f) return task;
     Piece faced{0.0f, 1.0f};
     if (is_to_face(faced.heading_rad)) task.course[task.pieces++] = faced;
@@ -341,7 +310,7 @@ class Pilot {
     const OnRoad::Spot here = place_.spot();
     const float past_m = as_.in(here.along_m - end_of_course_m(*place_.road(), as_.out(body_)) + here.past_m, "m");
     if (!(past_m > 0.0f)) return;
-    const ControlArgument* written = find_argument("overrun");
+    const ControlArgument* written = find_argument(*running_, "overrun");
     const float overrun_m = written != nullptr ? as_.in(written->number, "m") : find_parameter(Id::kHoldHeading, "overrun")->preset;
     static_cast<void>(controller_.set("overrun", greatest(overrun_m - past_m, 0.0f)));
   }
@@ -354,13 +323,6 @@ class Pilot {
     return limit;
   }
 
-  /// What the line that is driven by says of a parameter; null: nothing.
-  [[nodiscard]] const ControlArgument* find_argument(const char* name) const noexcept {
-    for (std::uint32_t i = 0; i < running_->count; ++i) {
-      if (same_text(running_->arguments[i].name, name)) return &running_->arguments[i];
-    }
-    return nullptr;
-  }
   /// Whether the robot has driven so far since the last manoeuvre began that it must have been through the middle of its crossing.
   [[nodiscard]] bool past_middle() const noexcept { return crossed_m() > to_middle_m_; }
 

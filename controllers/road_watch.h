@@ -41,7 +41,7 @@ class RoadWatch {
   void step(Pilot& pilot, const SignRead* sign, float dt_s, bool measured = false) noexcept {
     const float dt = sane_period(as_.in(dt_s, "s"));
     look_at_pilot(pilot);
-    hear_blindness(measured, dt);
+    alive_.step(senses_, measured, way_m_ + body_.line_ahead_m * magnitude(turned_rad_), dt);
     if (pilot.line() != line_driven_) begin(pilot);
     since_m_ += way_m_;
     if (moves_) beside_m_ = greatest(beside_m_ - way_m_, 0.0f);
@@ -69,8 +69,8 @@ class RoadWatch {
   /// Moments are over: a tick has taken them.
   void forget_moments() noexcept { line_seen_ = touched_ = false; }
   [[nodiscard]] float obstacle() const noexcept { return obstacle_; }
-  [[nodiscard]] float line_blind() const noexcept { return sure(!line_alive_.sees() || without_line_m_ > kSignToLine_m); }
-  [[nodiscard]] float ranges_blind() const noexcept { return sure(body_.has_range_finders && (!range_alive_.sees() || front_unknown_)); }
+  [[nodiscard]] float line_blind() const noexcept { return sure(!alive_.line_sees() || without_line_m_ > kSignToLine_m); }
+  [[nodiscard]] float ranges_blind() const noexcept { return sure(body_.has_range_finders && !alive_.ranges_see()); }
   [[nodiscard]] float due() const noexcept { return sure(due_); }
   [[nodiscard]] float carried() const noexcept { return sure(carried_s_ > 0.0f); }
   [[nodiscard]] float turned() const noexcept { return sure(id_ == ControllerId::kTurnRound && come_about()); }
@@ -84,7 +84,7 @@ class RoadWatch {
       return senses_.odometry_known && senses_.range_known ? kSure : 0.0f;
     }
     if (elsewhere_) return -kSure;
-    if (mark) return !senses_.line_known ? 0.0f : sure(paint_);
+    if (mark) return !senses_.line_known ? 0.0f : sure(alive_.paint());
     if (dist) return walls_beside(senses_, to_bend_m_ < kBendNear_m);
     return sure(compass_leads());
   }
@@ -158,20 +158,6 @@ class RoadWatch {
     const float past_end_m = along_m_ + in_m(spot_.past_m) - road_m, drift_m = kDrift * road_m;
     due_ = !crosses_ && senses_.odometry_known && square_root(past_end_m * past_end_m + beside_road_m_ * beside_road_m_) < kDue_m + drift_m;
     passed_end_ = past_end_m > kPassedEnd_m + drift_m;
-  }
-
-  /// A sensor that is stuck counts as silent. Without the range finders in front the robot drives blind.
-  void hear_blindness(bool measured, float dt) noexcept {
-    bool any_near = false;
-    for (const float range_m : senses_.range_m) any_near = any_near || range_m < kOutOfRange;
-    front_unknown_ = !knows_range(senses_, 0) || !knows_range(senses_, 1) || !knows_range(senses_, kRangeFinders - 1);
-    const float moved_m = way_m_ + body_.line_ahead_m * magnitude(turned_rad_);
-    line_alive_.step(senses_.line_known, senses_.line, !measured, moved_m, dt);
-    range_alive_.step(senses_.range_known, senses_.range_m, any_near, moved_m, dt);
-    senses_.line_known = line_alive_.sees();
-    senses_.range_known = range_alive_.sees();
-    paint_ = false;
-    for (const float darkness : senses_.line) paint_ = paint_ || darkness > StopLine::kDarkFrom;
   }
 
   /// Another strategy drives.
@@ -379,8 +365,7 @@ class RoadWatch {
   Body body_;
   Senses senses_;
   StopLine line_;
-  Liveness<kLineSensors> line_alive_;
-  Liveness<kRangeFinders> range_alive_;
+  LiveSenses alive_;
   ObstacleSight obstacle_sight_;
   Lifted lifted_;
   SignRead sign_;
@@ -399,7 +384,7 @@ class RoadWatch {
   bool notices_carried_, keeps_place_ = false;
   bool drove_ = false;                         // since the place was forgotten; a place that was put is kept until the robot drives
   bool crosses_ = false, enters_ = false, leaves_ = false, moves_ = false, avoids_ = false, rounding_ = false;
-  bool due_ = false, passed_end_ = false, paint_ = false, front_unknown_ = false, elsewhere_ = false, beside_ = false;
+  bool due_ = false, passed_end_ = false, elsewhere_ = false, beside_ = false;
   bool line_seen_ = false, touched_ = false, guided_ = false, given_up_ = false, set_down_ = false, came_known_ = false;
   bool turned_back_ = false, turned_from_sign_ = false, knows_way_back_ = false, met_line_ = false, waits_at_line_ = false, begins_on_road_ = false;
   bool awaits_out_ = false, out_told_ = true;  // the line out of its last crossing: it has yet to pass that, going round something; it has seen it

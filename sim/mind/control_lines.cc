@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include <waymark/controllers/pilot.h>
+#include <waymark/controllers/bind_line.h>
 
 namespace kb::sim {
 
@@ -14,7 +14,7 @@ ControlLines::ControlLines(const Knowledge& knowledge) {
     const bool has_turn = std::ranges::any_of(strategy.settings, [](const Strategy::Setting& setting) { return setting.name == "turn"; });
     if (!has_turn && !strategy.turn.empty() && mts::find_parameter(strategy.controller, "turn") != nullptr) arguments.push_back({"turn", strategy.turn.c_str(), 0.0f, ""});
     const auto entry = std::ranges::find_if(mts::kControllers, [&](const mts::ControllerEntry& one) { return one.id == strategy.controller; });
-    lines_.push_back({entry != std::end(mts::kControllers) ? entry->name : mts::Pilot::kRules, arguments.data(), static_cast<std::uint32_t>(arguments.size())});
+    lines_.push_back({entry != std::end(mts::kControllers) ? entry->name : mts::kRulesOfHost, arguments.data(), static_cast<std::uint32_t>(arguments.size())});
   }
 }
 
