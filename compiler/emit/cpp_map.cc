@@ -6,6 +6,8 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "compiler/emit/cpp.h"
 #include "compiler/model/ground.h"
@@ -22,20 +24,37 @@ struct Rows {
   std::size_t piece_count = 0, leg_count = 0;
 };
 
-/// The roads that legs lead along, by their row; nothing if a map does not say where its roads lie.
-std::optional<std::map<model::RowId, GroundRoad>> roads_of_legs(const model::Model& model) {
-  std::map<model::RowId, GroundRoad> used;
+/// What a robot on its routes has to know.
+struct Roads {
+  std::vector<GroundRoad> all;
+  std::map<model::RowId, std::size_t> number;   // of those that legs lead along
+};
+
+/// The roads that meet the landmarks of legs, each from both ends: a robot may come to the first crossing of a mission on any of them, and may be carried to
+/// one. Nothing if a map does not say where its roads lie.
+std::optional<Roads> roads_of_legs(const model::Model& model) {
+  Roads roads;
   for (const model::LegRoad& leg : model.leg_roads) {
-    if (leg.road != model::RowId::kNone) used.try_emplace(leg.road);
+    if (leg.road != model::RowId::kNone) roads.number.emplace(leg.road, 0);
   }
   for (const model::Map& map : model.maps) {
-    auto roads = model::ground_roads(model, map);
-    if (!roads) return std::nullopt;
-    for (GroundRoad& road : *roads) {
-      if (const auto at = used.find(road.row); at != used.end()) at->second = std::move(road);
+    auto ground = model::ground_roads(model, map);
+    if (!ground) return std::nullopt;
+    std::set<std::string_view> landmarks;
+    std::set<std::pair<std::string_view, std::string_view>> begins;
+    for (const GroundRoad& road : *ground) {
+      begins.emplace(road.from, road.exit);
+      if (roads.number.contains(road.row)) landmarks.insert({road.from, road.to});
+    }
+    for (GroundRoad& road : *ground) {
+      if (!landmarks.contains(road.from) && !landmarks.contains(road.to)) continue;
+      if (const auto leg = roads.number.find(road.row); leg != roads.number.end()) leg->second = roads.all.size();
+      roads.all.push_back(std::move(road));
+      const GroundRoad& there = roads.all.back();
+      if (!there.approach.empty() && !begins.contains({there.to, there.approach})) roads.all.push_back(model::reversed(there));
     }
   }
-  return used;
+  return roads;
 }
 
 void add_road(const GroundRoad& road, Rows& rows) {
@@ -49,20 +68,16 @@ void add_road(const GroundRoad& road, Rows& rows) {
                  rows.piece_count - first, float_literal(static_cast<float>(road.begins_apart_rad)), float_literal(static_cast<float>(road.ends_apart_rad)));
 }
 
-Rows rows_of(const model::Model& model, const program::Program& program, const Names& names, const std::map<model::RowId, GroundRoad>& roads) {
+Rows rows_of(const model::Model& model, const program::Program& program, const Names& names, const Roads& roads) {
   Rows rows;
-  std::map<model::RowId, std::size_t> number;
-  for (const auto& [row, road] : roads) {
-    number.emplace(row, number.size());
-    add_road(road, rows);
-  }
+  for (const GroundRoad& road : roads.all) add_road(road, rows);
   std::unordered_map<std::string_view, std::size_t> satellites;
   const auto cells = program.cells_of(program::CellKind::kSatellite);
   for (std::size_t i = 0; i < cells.size(); ++i) satellites.emplace(cells[i].name, i);
   for (const model::LegRoad& leg : model.leg_roads) {
     const auto cell = satellites.find(model[leg.leg].name);
     if (leg.road == model::RowId::kNone || cell == satellites.end()) continue;
-    fmt::format_to(Out(rows.legs), "      {{Satellite::{}, {}}},\n", names.satellites[cell->second], number.at(leg.road));
+    fmt::format_to(Out(rows.legs), "      {{Satellite::{}, {}}},\n", names.satellites[cell->second], roads.number.at(leg.road));
     ++rows.leg_count;
   }
   return rows;
@@ -93,13 +108,13 @@ std::string landmark_runs(const model::Model& model, const program::Program& pro
 
 std::string map_body(const model::Model& model, const program::Program& program, const tables::Tables& tables) {
   const auto roads = roads_of_legs(model);
-  if (!roads || roads->empty()) return {};
+  if (!roads || roads->number.empty()) return {};
   const Rows rows = rows_of(model, program, make_names(program, tables), *roads);
   return fmt::format(
-      "/// The roads that routes and their detours lead along, in both directions where they do.\n"
+      "/// The roads that meet the landmarks of routes and their detours, each from both ends, whether or not it may be driven so.\n"
       "inline constexpr mts::Piece kMapPieces[] = {{   // heading in rad, length in m\n{1}}};\n"
       "inline constexpr mts::MapRoad kMapRoads[] = {{\n{2}}};\n\n"
-      "/// The road that leaves a landmark by one of its sides; null if no leg leads along it. O(roads).\n"
+      "/// The road that leaves a landmark by one of its sides; null if there is none, or no leg comes to the landmark. O(roads).\n"
       "[[nodiscard]] inline const mts::MapRoad* find_road(const char* from, const char* exit) noexcept {{\n"
       "  for (const mts::MapRoad& road : kMapRoads) {{\n    if (mts::same_text(road.from, from) && mts::same_text(road.exit, exit)) return &road;\n  }}\n"
       "  return nullptr;\n}}\n\n"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
+#include <utility>
 
 namespace kb::model {
 namespace {
@@ -49,6 +50,15 @@ void tell_apart(std::vector<GroundRoad>& roads) {
 }
 
 }  // namespace
+
+GroundRoad reversed(const GroundRoad& road) {
+  GroundRoad back = road;
+  std::swap(back.from, back.to);
+  std::swap(back.exit, back.approach);
+  std::swap(back.begins_apart_rad, back.ends_apart_rad);
+  std::reverse(back.course.begin(), back.course.end());
+  return back;
+}
 
 std::vector<GroundPiece> pieces_of(const GroundRoad& road, double metre) {
   constexpr double kShortest_m = 0.01;

@@ -20,6 +20,9 @@ struct GroundRoad {
   double begins_apart_rad = 0.0, ends_apart_rad = 0.0;   ///< where it begins and ends, the angle to the road beside it that is nearest, up to pi: none is
 };
 
+/// The same road from its other end.
+[[nodiscard]] GroundRoad reversed(const GroundRoad& road);
+
 /// A straight stretch of a course.
 struct GroundPiece { double heading_rad = 0.0, length_m = 0.0; };
 /// The course without what is shorter than 1 cm, unless there is nothing else: at least one piece. A metre of the map is `metre` long.

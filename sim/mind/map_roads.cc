@@ -36,9 +36,7 @@ float apart_rad(const Crossing& crossing, const Arm& arm) {
 
 MapRoads::MapRoads(const Labyrinth& labyrinth) {
   for (std::size_t c = 0; c < labyrinth.crossings.size(); ++c) {
-    for (const Arm& arm : labyrinth.crossings[c].arms) {
-      if (arm.leads_out) add(labyrinth, static_cast<CrossingId>(c), arm);
-    }
+    for (const Arm& arm : labyrinth.crossings[c].arms) add(labyrinth, static_cast<CrossingId>(c), arm);
   }
 }
 

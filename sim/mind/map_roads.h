@@ -19,7 +19,7 @@ class MapRoads {
   explicit MapRoads(const Labyrinth& labyrinth);
   MapRoads(const MapRoads&) = delete;   // roads point into it
 
-  /// The road that leaves a landmark by one of its sides; null if there is none, or none that may be driven so. O(log n).
+  /// The road that leaves a landmark by one of its sides, as it lies, whether or not it may be driven so; null if there is none. O(log n).
   [[nodiscard]] const mts::MapRoad* find(std::string_view landmark, std::string_view exit) const;
   /// Which road of the labyrinth it is, and the end where it begins.
   [[nodiscard]] const Labyrinth::End& end_of(const mts::MapRoad& road) const { return ends_[static_cast<std::size_t>(&road - roads_.data())]; }

@@ -108,5 +108,82 @@ TEST(Pilot, ASignAheadThatIsReadOnTheSpotDoesNotHideThatItHasComeAbout) {
   EXPECT_STREQ(trip.pilot.place().road()->from, "Arch");
 }
 
+TEST(Pilot, WhoTurnsRoundThoughNoLegSaysSoIsOnTheWayBack) {
+  static constexpr Piece west[] = {{kPi, 3.0f}};
+  constexpr MapRoad back = {"Arch", "W", "Dock", "E", "azimuth", kInfinity, west, 1};
+  Trip trip(1.5);
+  trip.pilot.put(kFirst, 1.5f);
+  trip.pilot.can_turn_back(&back);
+  trip.pilot.choose(&kAbout);
+  trip.drive(4.0);
+  trip.pilot.choose(&kMove);
+  trip.drive(3.0);
+  ASSERT_NE(trip.pilot.place().road(), nullptr);
+  EXPECT_STREQ(trip.pilot.place().road()->from, "Arch");
+  EXPECT_LT(trip.robot.x, 1.2);
+  EXPECT_NEAR(trip.robot.y, 0.0, 0.05);
+}
+
+TEST(Pilot, ASignTellsItsRoadToARobotThatDidNotKnowWhereItWas) {
+  Trip trip(0.4);
+  trip.pilot.choose(&kMove);
+  trip.drive(0.5);
+  ASSERT_EQ(trip.pilot.place().road(), nullptr);
+  trip.pilot.learn_road(kFirst);
+  ASSERT_EQ(trip.pilot.place().road(), &kFirst);
+  trip.pilot.learn_road(kThird);
+  EXPECT_EQ(trip.pilot.place().road(), &kFirst) << "it knows now";
+}
+
+TEST(Pilot, ARobotThatFacesBackInAHallKnowsItsDoors) {
+  constexpr ControlLine straight = {"bug", nullptr, 0};
+  static constexpr Piece kLong[] = {{0.0f, 6.0f}};
+  constexpr MapRoad hall = {"Arch", "E", "Shelf", "W", "open", kInfinity, kLong, 1};
+  plant::Floor floor;
+  floor.add_walls({{0.3, -0.3}, {0.85, -0.3}, {0.85, -2.0}, {5.15, -2.0}, {5.15, -0.3}, {5.7, -0.3}});
+  floor.add_walls({{0.3, 0.3}, {0.85, 0.3}, {0.85, 2.0}, {5.15, 2.0}, {5.15, 0.3}, {5.7, 0.3}});
+  Trip trip(2.0, floor);
+  trip.robot.place(2.0, 0.0, kPi);
+  trip.drive(0.1);
+  trip.pilot.put(hall, 2.0f);
+  trip.pilot.choose(&straight, &hall);
+  trip.drive(20.0);
+  EXPECT_GT(trip.robot.x, 5.0);
+}
+
+// note [pushed aside]
+TEST(Pilot, WhoWasPushedBesideItsLineLooksForItToBothSides) {
+  static constexpr Piece kStretch[] = {{0.0f, 8.0f}};
+  constexpr MapRoad marked = {"Dock", "E", "Arch", "W", "mark", kInfinity, kStretch, 1};
+  constexpr ControlLine follows = {"follow_line", nullptr, 0};
+  for (const double push_m : {-0.2, 0.2}) {
+    plant::Floor floor;
+    floor.paint.push_back({{{0.0, 0.0}, {8.0, 0.0}}, 0.02});
+    Trip trip(0.5, floor);
+    trip.pilot.put(marked, 0.5f);
+    trip.pilot.choose(&follows, &marked);
+    trip.drive(2.0);
+    trip.robot.place(trip.robot.x, push_m, 0.0);   // its wheels do not notice
+    Senses senses = trip.robot.sense();
+    senses.touched = true;
+    static_cast<void>(trip.pilot.step(senses, 0.02f));
+    EXPECT_TRUE(trip.pilot.beside_line());
+    trip.pilot.choose(&kMove, &marked);   // there is no line any more: by compass
+    for (int i = 0; i < 1000 && trip.pilot.beside_line(); ++i) trip.drive(0.02);
+    EXPECT_FALSE(trip.pilot.beside_line()) << push_m;
+    trip.drive(2.0);
+    EXPECT_NEAR(trip.robot.y, 0.0, 0.05) << push_m;
+    EXPECT_NEAR(trip.pilot.place().spot().left_m, 0.0f, 0.05f) << "it has learnt where the road is";
+  }
+}
+
+TEST(Pilot, RulesOfTheHostDriveUnderAName) {
+  Host host;
+  host.decide = [](void*, const RulesInput&) { return RulesOutput{0.0f, 1.0f, true}; };
+  constexpr ControlLine rules = {kRulesOfHost, nullptr, 0};
+  EXPECT_EQ(Pilot({}, host).fits(rules), Setting::kSet);
+  EXPECT_EQ(Pilot().fits(rules), Setting::kUnknown);
+}
+
 }  // namespace
 }  // namespace mts
