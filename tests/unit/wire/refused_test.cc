@@ -85,9 +85,9 @@ TEST(OddLine, ACompassThatCountsOnBeyondATurnIsTakenWithoutWholeTurns) {
 TEST(OddLine, AReadingOutOfItsRangeIsToldOfOnceForEachSensor) {
   Cab cab;
   static_cast<void>(cab.say(0.05, R"(,"readings":{"load":50,"range[8]":-1})"));
-  EXPECT_EQ(message_of(*cab.exchange().warning()), "`readings.range[8]` is -1, outside of its range, and counts as 0; send `null` where the sensor has measured nothing");
+  EXPECT_EQ(message_of(*cab.exchange().warning()), "`readings.range[8]` is -1, outside of its range, and counts as 0; where it means that nothing was measured, declare the sensor `strict`");
   static_cast<void>(cab.say(0.07, R"(,"readings":{"load":4500000,"range[9]":-1})"));
-  EXPECT_EQ(message_of(*cab.exchange().warning()), "`readings.load` is 4.5e+06, outside of its range, and counts as 50; send `null` where the sensor has measured nothing");
+  EXPECT_EQ(message_of(*cab.exchange().warning()), "`readings.load` is 4.5e+06, outside of its range, and counts as 50; where it means that nothing was measured, declare the sensor `strict`");
   static_cast<void>(cab.say(0.09, R"(,"readings":{"load":-3})"));
   EXPECT_EQ(warned(cab), "");
 }

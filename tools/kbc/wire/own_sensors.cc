@@ -77,7 +77,7 @@ std::optional<Mistake> OwnSensors::out_of_range(const std::vector<Heard>& heard,
   for (const Heard& one : heard) {
     const program::Sensor& sensor = perception.sensor_of(one.reading);
     const float* const value = std::get_if<float>(&one.value);
-    if (value == nullptr || sensor.text || sensor.circular) continue;
+    if (value == nullptr || sensor.text || sensor.circular || sensor.strict) continue;
     const double says = static_cast<double>(*value);
     const double beside = static_cast<double>(std::numeric_limits<float>::epsilon()) * std::max(std::abs(sensor.low), std::abs(sensor.high));   // 0.1 is no float
     if ((says >= sensor.low - beside && says <= sensor.high + beside) || said(sensor.name)) continue;
