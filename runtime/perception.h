@@ -51,6 +51,7 @@ struct Sensor {
   float growth = 0.0f;    ///< growth of the squared spread per second: see aged_spread
   float stale_s = 0.0f;   ///< age from which a reading counts as stale; infinity: never
   bool text = false;
+  bool strict = false;    ///< a reading outside of the range is none; else it is taken into the range
 };
 
 template <class Ix>
@@ -184,6 +185,10 @@ class PerceptionEngine {
     }
     if (!is_finite(value)) {
       count(s.report.not_a_number, Sight::kNotANumber);
+      return {value, -1.0f};
+    }
+    if (sensor.strict && (value < sensor.low || value > sensor.high)) {   // the error code of a sensor
+      count(s.report.out_of_range, Sight::kBeyondRange);
       return {value, -1.0f};
     }
     std::int64_t age_us = age_at({s.clock_us}, born_us);

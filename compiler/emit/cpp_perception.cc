@@ -50,8 +50,8 @@ class SensesPrinter {
     rows("mts::Sensor", "kSensors", form_.sensors.size(), [&](std::size_t i) {
       const mts::Sensor& x = form_.sensors[i];
       const auto f = float_constant;
-      return fmt::format("{{{}, {}, {}, {}, {}, {}, {}}},  // {}", f(x.low), f(x.high), f(x.period), f(x.noise), f(x.growth), f(x.stale_s),
-                         truth(x.text), from_.sensors[i].name);
+      return fmt::format("{{{}, {}, {}, {}, {}, {}, {}{}}},  // {}", f(x.low), f(x.high), f(x.period), f(x.noise), f(x.growth), f(x.stale_s),
+                         truth(x.text), x.strict ? ", true" : "", from_.sensors[i].name);
     });
     rows("mts::Membership", "kPrototypes", form_.prototypes.size(), [&](std::size_t i) {
       return fmt::format("{},  // {}", membership_row(form_.prototypes[i]), from_.prototypes[i].text);

@@ -204,6 +204,7 @@ struct Sensor {
   std::optional<double> stale_s;     ///< the age at which a reading is as wide as half of the range; none: readings do not age
   std::uint32_t first = 0, count = 1;
   source::Span declared;
+  bool strict = false;               ///< a reading outside of the range is none, instead of the nearest one in it
 };
 
 /// A prototype laid on the quantity of a sensor.

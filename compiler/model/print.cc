@@ -153,6 +153,7 @@ class Printer {
     if (s.noise > 0.0) text += fmt::format(" noise {}", s.noise);
     if (s.stale_s) text += fmt::format(" stale {} s", *s.stale_s);
     if (s.circular) text += " circular";
+    if (s.strict) text += " strict";
     line("sensor {}{} {}{}", s.name, s.array ? fmt::format("[{}]", s.count) : "", text, at(s.declared));
   }
 

@@ -58,6 +58,7 @@ class SensorReader {
   void read_text() {
     if (from_.noise) fail(Kind::kSensorTextAttribute, from_.noise->span, {"noise", sensor_.name});
     if (from_.circular) fail(Kind::kSensorTextAttribute, *from_.circular, {"circular", sensor_.name});
+    if (from_.strict) fail(Kind::kSensorTextAttribute, *from_.strict, {"strict", sensor_.name});
   }
 
   void read_number() {
@@ -70,6 +71,7 @@ class SensorReader {
     sensor_.high = domain_.high;
     sensor_.unit = domain_.unit;
     sensor_.circular = domain_.circular;
+    sensor_.strict = from_.strict.has_value();
     if (from_.noise) read_noise(*from_.noise);
   }
 

@@ -229,6 +229,7 @@ void append_perception_json(std::string& out, const Program& program) {
     else range(out, sensor.low, sensor.high, sensor.unit, sensor.circular);
     if (!sensor.text) number_key(out, "noise", sensor.noise);
     if (sensor.stale_s) number_key(out, "stale", *sensor.stale_s);
+    if (sensor.strict) out += ",\"strict\":true";
     out += '}';
   });
   list(out, "percepts", program.perception.perceived, [&](const Perceived& perceived) {

@@ -9,7 +9,7 @@ namespace {
 
 Sensor lower_sensor(const model::Sensor& from) {
   Sensor made{from.name, from.text, from.array, from.low, from.high, from.unit, from.circular, from.noise,
-              from.stale_s, 0.0, from.first, from.count, {}, from.declared};
+              from.stale_s, 0.0, from.first, from.count, {}, from.declared, from.strict};
   made.growth = growth_of(made);
   return made;
 }

@@ -33,6 +33,7 @@ struct Sensor {
   std::uint32_t first = 0, count = 1;
   std::vector<std::string> texts;    ///< those that some fact asks for, ascending
   source::Span declared;
+  bool strict = false;               ///< a reading outside of the range is none
 };
 
 /// note [how readings age]

@@ -233,7 +233,8 @@ void append_perception(std::string& out, const Program& program) {
     out += sensor.text ? " text" : fmt::format(" {}..{}{}", sensor.low, sensor.high, unit);
     if (sensor.noise > 0.0) out += fmt::format(" noise {}{}", sensor.noise, unit);
     if (sensor.stale_s) out += fmt::format(" stale {} s", *sensor.stale_s);
-    out += sensor.circular ? " circular\n" : "\n";
+    if (sensor.circular) out += " circular";
+    out += sensor.strict ? " strict\n" : "\n";
   }
   for (const Prototype& prototype : program.perception.prototypes) {
     const std::string text = fuzzy::text(prototype.shape);

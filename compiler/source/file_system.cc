@@ -11,12 +11,17 @@
 namespace kb::source {
 namespace {
 
+constexpr std::size_t kPipeBytes = std::size_t{64} * 1024;
+
 struct Descriptor {
   int fd = -1;
   ~Descriptor() {
     if (fd >= 0) ::close(fd);
   }
 };
+
+/// Whether the path is of a file that whoever started this process has opened for it: `<(...)` of a shell is `/dev/fd/63`.
+bool is_handed_over(std::string_view path) { return path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/") || path == "/dev/stdin"; }
 
 std::string normal(std::string_view path) { return std::filesystem::path(path).lexically_normal().string(); }
 
@@ -30,10 +35,12 @@ FileSystem::Result RealFileSystem::read(std::string_view path) const {
   struct stat info {};
   if (::fstat(file.fd, &info) != 0) return {std::nullopt, reason(errno)};
   if (S_ISDIR(info.st_mode)) return {std::nullopt, reason(EISDIR)};
-  if (!S_ISREG(info.st_mode)) return {std::nullopt, "is not a regular file"};
+  const bool pipe = S_ISFIFO(info.st_mode) && is_handed_over(path);   // it has somebody who writes
+  if (!S_ISREG(info.st_mode) && !pipe) return {std::nullopt, "is not a regular file"};
+  if (pipe && ::fcntl(file.fd, F_SETFL, 0) != 0) return {std::nullopt, reason(errno)};   // no more O_NONBLOCK: wait for what comes
   if (static_cast<std::uintmax_t>(info.st_size) > kMaxFileBytes) return {std::nullopt, "is too large", true};
   std::string bytes;
-  bytes.resize(static_cast<std::size_t>(info.st_size) + 1);  // one byte more, to notice if the file grows
+  bytes.resize(pipe ? kPipeBytes : static_cast<std::size_t>(info.st_size) + 1);  // one byte more, to notice if the file grows
   std::size_t length = 0;
   while (length < bytes.size()) {
     const ssize_t got = ::read(file.fd, bytes.data() + length, bytes.size() - length);

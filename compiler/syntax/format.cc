@@ -313,7 +313,7 @@ Formatter::Slot Formatter::slot() const {
     case Family::kSensor: {
       const bool name = last() == T::kRightBracket || (last() == T::kIdentifier && tokens_[at_ - 2].begins_statement);
       if (outside && name && kind != T::kLeftBracket) return {1, 1};
-      return kind == T::kNoise ? Slot{2, 2} : kind == T::kStale ? Slot{3, 2} : kind == T::kCircular ? Slot{4, 2} : Slot{0, 0};
+      return kind == T::kNoise ? Slot{2, 2} : kind == T::kStale ? Slot{3, 2} : kind == T::kCircular ? Slot{4, 2} : kind == T::kStrict ? Slot{5, 2} : Slot{0, 0};
     }
     case Family::kPlan: return kind == T::kOn ? Slot{1, 2} : kind == T::kWhen ? Slot{2, 2} : Slot{0, 0};
     case Family::kLandmark: return kind == T::kAt ? Slot{1, 1} : Slot{0, 0};

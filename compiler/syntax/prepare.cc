@@ -213,7 +213,7 @@ bool Preparation::stands_for_a_name_in_brackets() const {
   }
 }
 
-// Attributes: `sensor range 0..4 m noise 0.02 m circular`, `fact Line = ... lazy`. Names: `sensor noise 0..1`, `fact A = lazy and B`.
+// Attributes: `sensor range 0..4 m noise 0.02 m strict`, `fact Line = ... lazy`. Names: `sensor noise 0..1`, `fact A = lazy and B`.
 bool Preparation::stands_for_an_attribute() const {
   const TokenKind before = last();
   if (!open_.empty() || before == statement_) return false;

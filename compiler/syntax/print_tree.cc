@@ -119,6 +119,7 @@ void Printer::print(const Sensor& node) {
   if (node.noise) line(1, "noise {}", number_text(*node.noise));
   if (node.stale) line(1, "stale {}", number_text(*node.stale));
   if (node.circular) line(1, "circular");
+  if (node.strict) line(1, "strict");
 }
 
 void Printer::print(const Perceive& node) {

@@ -229,7 +229,7 @@ struct Sensor {
   std::optional<Number> count;          ///< how many there are, if it is an array
   std::optional<std::pair<Number, Number>> range;  ///< if there is none, readings are texts
   std::optional<Number> noise, stale;
-  std::optional<source::Span> circular;
+  std::optional<source::Span> circular, strict;
 };
 
 /// `perceive [l in Landmark] l = tag ~ l`

@@ -124,6 +124,7 @@ class TreeBuilder {
   void sensor_noise(Span span, Id number);
   void sensor_stale(Span span, Id number);
   void sensor_circular(Span span);
+  void sensor_strict(Span span);
   void sensor();
   void perceive(Id target, Id percept);
   [[nodiscard]] Id combine_percepts(Percept::Kind kind, Span span, Id left, Id right);

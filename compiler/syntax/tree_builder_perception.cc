@@ -33,6 +33,8 @@ void TreeBuilder::sensor_stale(Span span, Id number) { set_once(sensor_.stale, n
 
 void TreeBuilder::sensor_circular(Span span) { set_once(sensor_.circular, span, span); }
 
+void TreeBuilder::sensor_strict(Span span) { set_once(sensor_.strict, span, span); }
+
 void TreeBuilder::sensor() { add(std::move(sensor_)); }
 
 // ---- facts that are perceived

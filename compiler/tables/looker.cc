@@ -108,6 +108,7 @@ class Plain final : public Looker {
     if (!arrival.there || arrival.refused || std::isnan(value) || std::isinf(value)) return {};
     const float age_s = static_cast<float>(age_us(arrival)) * 1e-6f;
     if (sensor.text) return {value, age_s > sensor.stale_s ? -1.0f : 0.0f};
+    if (sensor.strict && (value < sensor.low || value > sensor.high)) return {};
     const float inside = sensor.period > 0.0f ? mts::wrapped(value, sensor.low, sensor.period) : std::clamp(value, sensor.low, sensor.high);
     return {inside, mts::aged_spread(sensor.noise, sensor.growth, age_s)};
   }

@@ -34,6 +34,7 @@ mts::Sensor sensor_row(const program::Sensor& sensor) {
   row.growth = to_float(sensor.growth);
   row.stale_s = sensor.stale_s ? to_float(*sensor.stale_s) : std::numeric_limits<float>::infinity();
   row.text = sensor.text;
+  row.strict = sensor.strict;
   return row;
 }
 

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import time
 
-OUT_OF_RANGE_M = 4.0
+OUT_OF_RANGE_M = 100.0   # nothing is there, for a robot of any size
 LONGEST_WAIT_S = 0.2     # for an answer
 FIRST_WAIT_S = 30.0      # for the first one, which comes when the knowledge base is compiled
 MOST_OWED = 50           # answers: a second of silence
@@ -77,24 +77,28 @@ def known(value):
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def eight_ranges(ranges, angle_min, angle_increment):
+def eight_ranges(ranges, angle_min, angle_increment, range_min=0.0, range_max=math.inf):
     """The nearest reading within 12 degrees of each of eight directions, of a scan that begins at `angle_min` (ahead is 0, left is
-    positive; metres from the robot's centre): what `range_m` wants."""
+    positive; metres from the robot's centre): what `range_m` wants. Infinite: nothing was seen; -infinite: something too near to be measured.
+    Any other reading outside of `range_min` to `range_max` is none: many scanners say 0.0 for a ray that did not come back. A direction without
+    a reading is unknown, and not free."""
     eight = []
     for i in range(8):
         seen, looked = OUT_OF_RANGE_M, False
         for k, range_m in enumerate(ranges):
             off = math.remainder(angle_min + k * angle_increment - i * math.pi / 4, 2 * math.pi)
-            if abs(off) > 0.21 or math.isnan(range_m):
+            if abs(off) > 0.21 or math.isnan(range_m) or (math.isfinite(range_m) and not range_min <= range_m <= range_max):
                 continue
             looked = True
-            seen = min(seen, max(range_m, 0.0))          # inf, nothing seen, stays 4
+            seen = min(seen, max(range_m, range_min))
         eight.append(seen if looked else None)
     return eight
 
 
 def yaw(x, y, z, w):
-    """Counter-clockwise from the x axis, of a quaternion."""
+    """Counter-clockwise from the x axis, of a quaternion. None if it is none: who knows no orientation often says four zeros."""
+    if not abs(x * x + y * y + z * z + w * w - 1) < 0.1:
+        return None
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 

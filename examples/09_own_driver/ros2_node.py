@@ -4,11 +4,10 @@
 
     hears   scan    sensor_msgs/LaserScan             metres, from the robot's centre, angle 0 ahead
             odom    nav_msgs/Odometry
-            imu     sensor_msgs/Imu                   its yaw is 0 to the east of the map; without it odometry counts
+            imu     sensor_msgs/Imu                   its yaw is 0 to the east of the map; without it, or if it knows no orientation, odometry counts
             line    std_msgs/Float32MultiArray        five darknesses, 0 to 1, the first at the left
             bumper  std_msgs/Bool
-            tag     std_msgs/String                   "LM5 W" on a tag of the map (another one would stop the robot), "" while the reader
-                                                      works and reads nothing
+            tag     std_msgs/String                   "LM5 W" on a tag, "" while the reader works and reads nothing
             press   std_msgs/String                   a button: "Start1", "Abort", "Resume"
             facts   std_msgs/String                   certainties of facts, JSON: {"Fire": 0.8}; they hold until the next message, or silence
             readings std_msgs/String                  of sensors that the knowledge base declares, JSON: {"load": 12.5}
@@ -44,13 +43,18 @@ def yaw_of(orientation):
 
 
 def of_scan(scan):
-    return {"range_m": eight_ranges(scan.ranges, scan.angle_min, scan.angle_increment)}
+    return {"range_m": eight_ranges(scan.ranges, scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max)}
 
 
 def of_odometry(odometry):
     pose = odometry.pose.pose
     return {"odometry_x_m": pose.position.x, "odometry_y_m": pose.position.y, "odometry_m_s": odometry.twist.twist.linear.x,
             "odometry_turned_rad": yaw_of(pose.orientation)}
+
+
+def of_imu(imu):
+    """Nothing of an IMU that has gyroscopes and no orientation, which it says by its covariance."""
+    return {} if imu.orientation_covariance[0] == -1 else {"compass_rad": yaw_of(imu.orientation)}
 
 
 def of_tag(tag):
@@ -73,7 +77,7 @@ def named_values(text):
 SENSORS = (
     (LaserScan, "scan", of_scan),
     (Odometry, "odom", of_odometry),
-    (Imu, "imu", lambda imu: {"compass_rad": yaw_of(imu.orientation)}),
+    (Imu, "imu", of_imu),
     (Float32MultiArray, "line", lambda line: {"line": list(line.data)}),
     (Bool, "bumper", lambda bumper: {"touched": bumper.data}),
     (String, "tag", of_tag),

@@ -81,12 +81,19 @@ void Judge::fault(Summary::Fault::Ban broken, std::string what) {
   if (summary.faults.empty() || summary.faults.back().what != what) summary.faults.push_back({broken, std::move(what)});
 }
 
+void Judge::enter(CrossingId crossing, const Floor& floor) {
+  const Crossing& entered = labyrinth_[crossing];
+  if (!floor.safe(crossing)) fault(Summary::Fault::Ban::kUnsafeCrossing, fmt::format("entered {}, which was not safe", entered.name));
+  closed_.clear();
+  for (const Arm& arm : entered.arms) {
+    if (floor.closed(arm.road)) closed_.push_back(arm.road);
+  }
+  inside_ = crossing;
+}
+
 void Judge::follow_crossings(const Floor& floor) {
-  using Ban = Summary::Fault::Ban;
   if (where_.crossing != CrossingId::kNone) {
-    const bool enters = inside_ != where_.crossing;
-    if (enters && !floor.safe(where_.crossing)) fault(Ban::kUnsafeCrossing, fmt::format("entered {}, which was not safe", labyrinth_[where_.crossing].name));
-    inside_ = where_.crossing;
+    if (inside_ != where_.crossing) enter(where_.crossing, floor);
     return;
   }
   if (inside_ == CrossingId::kNone || where_.road == RoadId::kNone) return;
@@ -100,7 +107,8 @@ void Judge::follow_crossings(const Floor& floor) {
   if (behind_m < 0.2 * labyrinth_.size) return;   // it may still turn back
   const std::string& exit = begins && behind_m == where_.along_m ? road.exit : road.approach;
   summary.way.push_back(fmt::format("{}.{}", labyrinth_[inside_].name, exit));
-  if (floor.closed(where_.road)) fault(Ban::kClosedRoad, fmt::format("took the closed road {}", summary.way.back()));
+  const bool told = std::find(closed_.begin(), closed_.end(), where_.road) != closed_.end();
+  if (told && floor.closed(where_.road)) fault(Summary::Fault::Ban::kClosedRoad, fmt::format("took the closed road {}", summary.way.back()));
   inside_ = CrossingId::kNone;
 }
 

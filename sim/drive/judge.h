@@ -54,7 +54,7 @@ struct Summary {
   std::optional<Approach> closest;           ///< the least gap to an obstacle of the scenario; nothing if none stood
   struct Fault {
     enum class Ban : std::uint8_t { kClosedRoad, kUnsafeCrossing } broken{};
-    std::string what;                        ///< `took the closed road LM7.E`, `entered LM3, which was not safe`
+    std::string what;                        ///< `took the closed road LM7.E`, closed since before it entered the crossing; `entered LM3, which was not safe`
   };
   std::vector<Fault> faults;
   struct Missed { std::string what; source::Span at; };
@@ -96,6 +96,7 @@ class Judge {
 
  private:
   void follow_crossings(const Floor& floor);
+  void enter(CrossingId crossing, const Floor& floor);
   [[nodiscard]] bool believes_rightly(const Leg& leg) const;
   void fault(Summary::Fault::Ban broken, std::string what);
 
@@ -105,6 +106,7 @@ class Judge {
   bool looked_ = false;
   CrossingId mistaken_ = CrossingId::kNone;  // the crossing that it drives over and takes for another
   CrossingId inside_ = CrossingId::kNone;    // the crossing that it is in, or was in last
+  std::vector<RoadId> closed_;               // those of its roads that were closed when it came in: nobody tells it what happens meanwhile
   const Leg* leg_ = nullptr;
   const Leg* leg_before_ = nullptr;
 };

@@ -69,7 +69,8 @@ def drive(head, seconds, silent=(), **more):
     odometry = Message()
     odometry.pose.pose = Message(position=Message(x=0.0, y=0.0), orientation=quaternion(0.0))
     odometry.twist.twist.linear.x = 0.0
-    said = {'scan': Message(ranges=[math.inf] * 360, angle_min=-math.pi, angle_increment=math.pi / 180), 'odom': odometry, 'imu': Message(orientation=quaternion(0.0)),
+    said = {'scan': Message(ranges=[math.inf] * 360, angle_min=-math.pi, angle_increment=math.pi / 180, range_min=0.1, range_max=12.0), 'odom': odometry,
+            'imu': Message(orientation=quaternion(0.0), orientation_covariance=[0.0] * 9),
             'line': Message(data=[0.1, 0.1, 0.9, 0.1, 0.1]), 'bumper': Message(data=False), 'tag': Message(data='')}
     said |= {topic: Message(data=text) for topic, text in more.items()}
     for _ in range(round(seconds / 0.02)):
@@ -116,4 +117,12 @@ head.topics['press'](Message(data='Gо'))   # with a letter that only looks like
 drive(head, 0.1)
 assert head.logged and head.said['cmd_vel'][-1].linear.x == 0.0
 assert head.mind.close() == 1
+
+ahead = bridge.eight_ranges([0.0, 0.0, 2.0, 0.0, 13.0], -0.2, 0.1, 0.1, 12.0)
+assert ahead == [2.0] + [None] * 7, f'a ray that did not come back is no wall, and no free way: {ahead}'
+assert bridge.eight_ranges([math.inf, 50.0, -math.inf], -0.1, 0.1, 0.1, 60.0)[0] == 0.1, 'something is too near to be measured'
+assert bridge.eight_ranges([math.inf], 0.0, 0.1, 0.1, 60.0)[0] >= 4 * 20, 'nothing is there for a large robot either'
+assert ros2_node.of_imu(Message(orientation=quaternion(1.0), orientation_covariance=[-1.0] + [0.0] * 8)) == {}, 'an IMU without orientation'
+nothing = Message(x=0.0, y=0.0, z=0.0, w=0.0)
+assert ros2_node.of_imu(Message(orientation=nothing, orientation_covariance=[0.0] * 9)) == {'compass_rad': None}, 'four zeros are no compass that looks east'
 print('the node drives, stands where a sensor is silent, and says why')

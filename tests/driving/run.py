@@ -195,7 +195,7 @@ def the_examples():
     expect(blocked.returncode == 0 and 'collisions  0' in blocked.stdout, 'and round a crate')
     run = subprocess.run([sys.executable, '-c', 'import bridge, math\n'
                           'scan = [math.inf] * 360\nscan[0] = 1.0\nscan[350] = 0.5\nscan[90] = math.nan\n'
-                          'assert bridge.eight_ranges(scan, 0.0, math.pi / 180)[:3] == [0.5, 4.0, 4.0]\n'
+                          'assert bridge.eight_ranges(scan, 0.0, math.pi / 180)[:3] == [0.5, bridge.OUT_OF_RANGE_M, bridge.OUT_OF_RANGE_M]\n'
                           'assert bridge.eight_ranges([2.0] * 90, -math.pi / 4, math.pi / 180)[4] is None\n'
                           'assert abs(bridge.yaw(0, 0, math.sqrt(0.5), math.sqrt(0.5)) - math.pi / 2) < 1e-9\n'], cwd=OWN, capture_output=True, text=True, check=False,
                          env=dict(ENVIRONMENT, PYTHONDONTWRITEBYTECODE='1'))

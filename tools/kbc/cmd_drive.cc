@@ -57,6 +57,7 @@ class Conversation {
       if (came == Came::kFailed) session_.report(Kind::kCannotRead, {"standard input", source::reason(channel_.error())});
       if (came == Came::kEnd || came == Came::kFailed) return session_.exit_code();
       ++number_;
+      if (came == Came::kLine && line.find_first_not_of(" \t\r") == std::string::npos) continue;   // nobody has said anything
       const std::string answer = came == Came::kTooLong ? too_long() : exchange_.answer(line, number_);
       for (const auto* said : {&exchange_.mistake(), &exchange_.warning()}) {
         if (*said) tell(**said, line);

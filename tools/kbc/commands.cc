@@ -60,6 +60,13 @@ constexpr std::array kCommands = {
             "kbc diff old.kb new.kb --readings drive.csv         # the same, where sensors were recorded\n"
             "kbc diff robot.kbt new.kb --facts drive.csv --json  # the image that runs on it against what is to come\n",
             Shared::kCompiles, setup_diff},
+    Command{"tidy", "Mend a recording that a robot left half written or out of order",
+            "Copies facts or readings (CSV), or JSON lines of `kbc drive`, and leaves out, or moves, rows that `kbc run` would refuse: a last row that "
+            "was half written when the power went, rows of a clock that was set back. Says which rows it has changed. What is wrong in another way stays as it is.",
+            "kbc tidy drive.csv -o whole.csv                     # without a half last row, and without rows that go back in time\n"
+            "kbc tidy drive.csv -o whole.csv --clock shift       # after a restart of the recorder, time goes on\n"
+            "kbc tidy drive.csv -o whole.csv --clock sort        # rows that overtook one another\n",
+            Shared::kMessages, setup_tidy},
     Command{"explain", "Describe a message at length, with a wrong and a right example",
             "Takes a code from the end of a message, or the name of a warning.",
             "kbc explain KB0101                              # one message\n"

@@ -80,6 +80,7 @@ struct Command {
 Run setup_compile(CLI::App& app);
 Run setup_check(CLI::App& app);
 Run setup_run(CLI::App& app);
+Run setup_tidy(CLI::App& app);
 Run setup_test(CLI::App& app);
 Run setup_why(CLI::App& app);
 Run setup_diff(CLI::App& app);

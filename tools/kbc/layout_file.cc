@@ -40,6 +40,7 @@ std::optional<layout::Map> read_layout(const LayoutImport& how, source::Sources&
     diagnostics.report(diagnostics::Kind::kLayoutEmpty, {file, 0, 0});
     return std::nullopt;
   }
+  layout::warn_of_units(*layout, diagnostics);   // before places that are near one another become one
   layout = layout::joined(std::move(*layout), adaptations, diagnostics);
   if (!layout) return std::nullopt;
   auto roads = layout::roads_of(*layout, adaptations, diagnostics);

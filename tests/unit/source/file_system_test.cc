@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <thread>
 
 #include "compiler/source/source.h"
 #include "tests/unit/scratch_folder.h"
@@ -60,6 +62,21 @@ TEST_F(RealFiles, that_are_no_files_are_refused_without_waiting) {
   const std::string pipe = folder_ + "/pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(files_.read(pipe).error, "is not a regular file");
+}
+
+TEST_F(RealFiles, that_are_pipes_of_whoever_started_this_are_read_to_their_end) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const std::string path = "/dev/fd/" + std::to_string(ends[0]);
+  std::thread writer([&] {
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(::write(ends[1], std::string(1000, 'x').data(), 1000), 1000);
+    ::close(ends[1]);
+  });
+  const auto result = files_.read(path);
+  writer.join();
+  ::close(ends[0]);
+  ASSERT_TRUE(result.bytes) << result.error;
+  EXPECT_EQ(result.bytes->size(), 100'000u);
 }
 
 TEST_F(RealFiles, that_are_too_large_are_refused_before_they_are_read) {

@@ -47,6 +47,7 @@ inline void add_sensors(Dice& dice, program::Perception& to) {
     sensor.first = to.readings();
     sensor.high = dice.below(2) == 0 ? 360.0 : 4.0;
     sensor.circular = !sensor.text && sensor.high == 360.0;
+    sensor.strict = !sensor.text && dice.below(3) == 0;
     sensor.noise = dice.below(3) == 0 ? 0.0 : 0.01 * sensor.high;
     if (dice.below(2) == 0) sensor.stale_s = dice.between(0.05, 1.0);
     sensor.growth = program::growth_of(sensor);

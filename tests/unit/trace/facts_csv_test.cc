@@ -67,7 +67,7 @@ TEST(FactsCsv, knows_names_in_either_spelling_quoted_or_not) {
 
 TEST(FactsCsv, passes_over_comments_blank_lines_byte_order_mark_and_carriage_returns) {
   EXPECT_EQ(rows_of("\xEF\xBB\xBF# recorded on the bench\r\n\r\n\"Line\",Safe\r\n# the first\r\n1,1\r\n\r\n  # "
-                    "quiet\r\n0,\"0.5\""),
+                    "quiet\r\n0,\"0.5\"\r\n"),
             (Lines{"0us Line=1 Safe=1", "100000us Safe=0.5"}));
 }
 

@@ -77,7 +77,7 @@ TEST(Line, NamesWhatIsWrongAndWhere) {
   EXPECT_EQ(wrong(R"({"t":0,"line":{"left_m":12}})"), "KB1373 line.left_m: `line.left_m` is 12; a number from -1 to 1 is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"line":{"across":1}})"), "KB1373 line.across: `line.across` is 1; a truth value is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"line":{"left":0}})"), "KB1371 line.left: there is no field `line.left`; there are `left_m`, `across`; did you mean `left_m`?");
-  EXPECT_EQ(wrong(R"({"t":0,"compass_rad":90})"), "KB1373 compass_rad: `compass_rad` is 90; a number from -6.28319 to 6.28319 is wanted");
+  EXPECT_EQ(wrong(R"({"t":0,"compass_rad":1e7})"), "KB1373 compass_rad: `compass_rad` is 1e7; a number from -1e+06 to 1e+06 is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"touched":1})"), "KB1373 touched: `touched` is 1; a truth value is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"facts":{"Fire":1.5}})"), "KB1373 facts.Fire: `facts.Fire` is 1.5; a number from -1 to 1 is wanted");
   EXPECT_EQ(wrong(R"({"t":0,"facts":{"Fire":1,"Fire":0}})"), "KB1372 facts.Fire: `facts.Fire` is there twice");

@@ -122,6 +122,9 @@ struct LifHead {
 /// word for it. Linear in the layout.
 [[nodiscard]] std::string write_lif(const Layout& layout, const LifHead& head);
 
+/// Warns (KB1421) if its ways are so short or so long that its places can hardly be in metres. There is a place. O(ways).
+void warn_of_units(const Layout& layout, diagnostics::Diagnostics& diagnostics);
+
 /// The same with one place for each spot, and with ways split where they run over a place (within 15 cm). Nothing if they run over places
 /// more than 300,000 times (reported). O(ways log places) if places and ways are few in any strip of the layout.
 [[nodiscard]] std::optional<Layout> joined(Layout layout, Adaptations& adaptations, diagnostics::Diagnostics& diagnostics);
@@ -208,12 +211,15 @@ struct Mission {
 /// Gives roads the lower limits that an order sets for them.
 void take_limits(const Mission& mission, Map& map);
 
+/// Whether there is a way round any road of the mission: then detours can be planned for it. O(visits * roads * map) at worst.
+[[nodiscard]] bool has_way_round(const Map& map, const Mission& mission);
+
 /// The part of a map that a mission needs: its landmarks and roads and, if none of these leads to the first landmark, one that does, the
 /// straightest into the mission. Visits are renumbered.
 [[nodiscard]] std::pair<Map, Mission> trimmed(const Map& map, const Mission& mission);
 
-/// The mission as a `route` on that map, and a controller for each strategy that drives. Detours are planned, except for
-/// an order, whose master plans ways round.
+/// The mission as a `route` on that map, and a controller for each strategy that drives. Detours are planned where there are ways
+/// round, except for an order, whose master plans them.
 [[nodiscard]] std::string write_mission(const Mission& mission, const Map& map, const Wording& wording);
 
 }  // namespace kb::layout

@@ -104,6 +104,38 @@ void take_limits(const Mission& mission, Map& map) {
   }
 }
 
+bool has_way_round(const Map& map, const Mission& mission) {
+  std::vector<std::vector<std::pair<std::size_t, std::uint32_t>>> out(map.names.size());   // by place: roads, and where they lead
+  for (std::size_t r = 0; r < map.roads.size(); ++r) {
+    const Road& road = map.roads[r];
+    out[road.from].emplace_back(r, road.to);
+    if (road.both) out[road.to].emplace_back(r, road.from);
+  }
+  const auto& visits = mission.visits;
+  for (std::size_t j = 0; j + 1 < visits.size(); ++j) {
+    const auto driven = std::find_if(map.roads.begin(), map.roads.end(), [&](const Road& road) { return road.leads(visits[j].place, visits[j + 1].place) == visits[j].exit; });
+    const auto closed = static_cast<std::size_t>(driven - map.roads.begin());
+    std::vector<bool> goal(out.size()), reached(out.size());
+    for (std::size_t t = j + 1; t < visits.size(); ++t) goal[visits[t].place] = true;
+    std::vector<std::uint32_t> open;
+    const auto reach = [&](std::uint32_t from) {
+      for (const auto& [road, to] : out[from]) {
+        if (road == closed || reached[to]) continue;
+        reached[to] = true;
+        open.push_back(to);
+      }
+    };
+    reach(visits[j].place);
+    while (!open.empty()) {
+      const std::uint32_t at = open.back();
+      open.pop_back();
+      if (goal[at]) return true;
+      reach(at);
+    }
+  }
+  return false;
+}
+
 std::pair<Map, Mission> trimmed(const Map& map, const Mission& mission) {
   constexpr std::uint32_t kLeftOut = 0xFFFFFFFFu;
   const std::vector<bool> needed = needed_roads(map.roads, mission.visits);

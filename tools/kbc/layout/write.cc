@@ -90,7 +90,7 @@ std::string write_mission(const Mission& mission, const Map& map, const Wording&
   }
   const std::string head = mission.order.empty() ? "" : fmt::format("# {}\n", diagnostics::visible(mission.order));
   return fmt::format("\ncommand Start\n{}route Mission on {} by Start:\n    {}\n{}\n{}", head, wording.map, fmt::join(stops, " -> "),
-                     mission.order.empty() && !mission.alone ? "detours on Mission\n" : "", wording.controllers);
+                     mission.order.empty() && !mission.alone && has_way_round(map, mission) ? "detours on Mission\n" : "", wording.controllers);
 }
 
 }  // namespace kb::layout

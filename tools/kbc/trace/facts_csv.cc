@@ -19,8 +19,6 @@ namespace {
 
 using diagnostics::Kind;
 
-// Times beyond this (some 30,000 years) would not fit the clock.
-constexpr double kMaxTimeS = 1e12;
 // The longest gap that `# every` fills with ticks: a night in the dock is meant, a clock that was changed is not.
 constexpr std::int64_t kMaxFilledUs = 86'400'000'000;
 // The most ticks that it fills in between two rows: a day of milliseconds.
@@ -223,7 +221,11 @@ bool FactsReader::read_row(const LineReader::Line& line) {
     if (!take(field, columns_[count], line)) return false;
   }
   row_.readings = updates_;
-  if (count == columns_.size() && !fields.more()) return true;
+  if (count == columns_.size() && !fields.more()) {
+    const auto end = static_cast<std::uint32_t>(line.text.size());
+    if (!line.ended && path_ != "-") report(Kind::kFactsCutOff, line, {end - 1, end}, {});   // who writes to a pipe may leave it out
+    return true;
+  }
   reject_count(line, count, fields);
   return false;
 }
@@ -287,7 +289,8 @@ bool FactsReader::take_time(const Field& field, const LineReader::Line& line) {
   const std::string line_before = fmt::format("{}", row_before_);
   if (step_us < 0) {
     report(Kind::kFactsTimeOrder, line, mark, {source::printable(field.text), seconds(before_us)})
-        .note(Kind::kFactsRowBefore, {}, {line_before});
+        .note(Kind::kFactsRowBefore, {}, {line_before})
+        .note(Kind::kFactsTidy, {}, {path_});
   } else {
     report(Kind::kFactsStepTooLong, line, mark, {seconds(step_us), options_.every_us ? "`# every` fills" : "a tick takes", seconds(most_us)})
         .note(Kind::kFactsRowBefore, {}, {line_before});

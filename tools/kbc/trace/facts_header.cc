@@ -224,7 +224,8 @@ void FactsReader::reject_count(const LineReader::Line& line, std::size_t fields,
     const Field surplus = rest.next();
     if (first) mark = {surplus.begin, std::max(surplus.end, surplus.begin + 1)};
   }
-  report(Kind::kFactsFieldCount, line, mark, {diagnostics::counted(fields, "field"), diagnostics::counted(columns_.size(), "column")});
+  auto said = report(Kind::kFactsFieldCount, line, mark, {diagnostics::counted(fields, "field"), diagnostics::counted(columns_.size(), "column")});
+  if (!line.ended) said.note(Kind::kFactsTidy, {}, {path_});   // half written when the power went
 }
 
 diagnostics::Builder FactsReader::report(Kind kind, const LineReader::Line& line, Mark mark,

@@ -17,6 +17,9 @@ inline constexpr std::uint32_t kDefaultTickUs = 100'000;
 /// The longest time between two rows, in microseconds: what a tick's clock can count.
 inline constexpr std::int64_t kMaxStepUs = 0xFFFFFFFF;
 
+/// The latest time of a row, and the earliest below 0, in seconds (some 30,000 years): what lies beyond does not fit the clock.
+inline constexpr double kMaxTimeS = 1e12;
+
 /// Microseconds in `10ms`, `0.5 s`, `200 us`, `2 min`; nothing if it is no length of time, or outside [1 us,
 /// kMaxStepUs].
 [[nodiscard]] std::optional<std::uint32_t> parse_duration(std::string_view text);

@@ -116,7 +116,7 @@ std::optional<LineReader::Line> LineReader::next() {
     }
     if (!whole && left == 0) return std::nullopt;
 
-    Line line{.text = {}, .number = ++number_};
+    Line line{.text = {}, .number = ++number_, .ended = whole};
     const std::size_t size = whole ? static_cast<std::size_t>(static_cast<const char*>(found) - begin) : left;
     begin = buffer_.data() + begin_;  // `fill` may have moved it
     begin_ += size + (whole ? 1 : 0);

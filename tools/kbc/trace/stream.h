@@ -56,6 +56,7 @@ class LineReader {
   struct Line {
     std::string_view text;     ///< without the line break; valid until the next call
     std::uint64_t number = 0;  ///< the first line is 1
+    bool ended = true;         ///< it has a line end: only the last may lack it
     bool too_long = false;     ///< over the limit: `text` is its beginning, and no further line can be read
   };
   /// The next line, or nothing at the end of the stream. Amortised O(bytes).

@@ -1,10 +1,13 @@
 #include "tools/kbc/wire/exchange.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "compiler/program/text.h"
 #include "compiler/source/utf8.h"
+#include "tools/kbc/wire/named.h"
 
 namespace kb::wire {
 
@@ -13,6 +16,7 @@ using diagnostics::Kind;
 namespace {
 
 constexpr std::size_t kMostGiven = 20'000;   // twice as many as can be under way at once
+constexpr std::size_t kMostSaid = 1'000;     // different odd things that are told of
 constexpr int kManyPauses = 5;   // so many pauses in a row mean that the host is just slow
 
 /// The first multiple of `dt_us` from `t_us` on.
@@ -33,7 +37,7 @@ std::string seconds(std::int64_t t_us) {
 }  // namespace
 
 Exchange::Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options)
-    : knowledge_(&knowledge), abort_(knowledge.find("Abort")), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
+    : knowledge_(&knowledge), abort_(knowledge.find("Abort")), pause_(knowledge.find("Pause")), labyrinth_(labyrinth), options_(std::move(options)), floor_(labyrinth),
       body_(robot.body), driver_(knowledge, labyrinth, sim::as_driven(robot.body, robot.sensors.range, robot.drive)), names_(*knowledge.program), sensors_(knowledge) {
   for (const sim::CrossingMethods& crossing : robot.crossings) floor_.set_methods(crossing.crossing, crossing.methods);
 }
@@ -47,13 +51,32 @@ std::string Exchange::answer(std::string_view text, std::uint64_t number) {
   Answer answer;
   line_.reset();
   warning_.reset();
+  mistake_.reset();
+  const bool again = !text_.empty() && text == text_;
+  text_.clear();
+  if (again) return answer_;
   mistake_ = take(text, answer);
-  return mistake_ ? print_answer(*mistake_, number, actions_) : print_answer(answer);
+  if (mistake_) {
+    hear_stops(text);
+    return print_answer(*mistake_, number, actions_);
+  }
+  text_ = text;
+  return answer_ = print_answer(answer);
+}
+
+/// See note [a refused line that stops].
+void Exchange::hear_stops(std::string_view text) {
+  for (const std::string& name : named_in(text)) {
+    const program::CellId cell = names_.find(name);
+    const bool stops = cell != program::CellId::kNone && (cell == abort_ || cell == pause_);
+    if (stops && std::find(stops_.begin(), stops_.end(), cell) == stops_.end()) stops_.push_back(cell);
+  }
 }
 
 std::string Exchange::refuse(const Mistake& mistake, std::uint64_t number) {
   line_.reset();
   warning_.reset();
+  text_.clear();
   mistake_ = mistake;
   return print_answer(mistake, number, actions_);
 }
@@ -70,6 +93,7 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   const bool away = began_ && (set_back || gap_us > options_.pause_us);
   leapt_from_ = away && !set_back ? std::optional(clock_) : std::nullopt;
   pauses_ = away ? pauses_ + 1 : 0;
+  warn_of_what_is_odd(line);
   warn_of_what_nobody_hears(line);
   if (pauses_ == kManyPauses) warning_ = Mistake{Kind::kWireSlow, {std::to_string(kManyPauses), seconds(options_.pause_us), {}}, "t", line.t_at};
   hear_buttons(away);
@@ -98,13 +122,14 @@ std::optional<Mistake> Exchange::follow_clock(const Line& line, bool& set_back) 
   const std::int64_t t_us = line.t_us + offset_us_;
   if (!began_ || t_us > clock_.t_us) return std::nullopt;
   const std::string now = seconds(line.t_us), before = seconds(clock_.t_us - offset_us_);
-  if (leapt_from_ && t_us > leapt_from_->t_us) {
+  const bool goes_on = refused_us && line.t_us > *refused_us && line.t_us - *refused_us <= options_.pause_us;
+  const std::int64_t since_us = goes_on && leapt_from_ ? *refused_us + offset_us_ - leapt_from_->t_us : 0;
+  if (since_us > 0 && since_us <= options_.pause_us) {
     warning_ = Mistake{Kind::kWireLeap, {now, before, {}}, "t", line.t_at};
     clock_ = *leapt_from_;
     driver_.mind().set_clock(clock_.t_us);
     return std::nullopt;
   }
-  const bool goes_on = refused_us && line.t_us > *refused_us && line.t_us - *refused_us <= options_.pause_us;
   set_back = goes_on && clock_.t_us - t_us > options_.pause_us;   // lines that overtake one another are closer together
   if (set_back) {
     offset_us_ = clock_.t_us + sim::kControlUs - line.t_us;
@@ -112,6 +137,24 @@ std::optional<Mistake> Exchange::follow_clock(const Line& line, bool& set_back) 
   }
   refused_us_ = line.t_us;
   return Mistake{Kind::kWireTime, {now, before, {}}, "t", line.t_at};
+}
+
+/// Whether it was told of this before, or of so much that nobody reads on. It counts as told from now on.
+bool Exchange::was_said(std::string what) { return said_once_.size() >= kMostSaid || !said_once_.insert(std::move(what)).second; }
+
+/// What is understood, and probably not meant so.
+void Exchange::warn_of_what_is_odd(const Line& line) {
+  if (warning_) return;
+  if (line.tag && tag_.memory == nullptr && !was_said("tag " + line.tag->landmark.text)) {
+    std::vector<std::string_view> names;
+    for (const sim::Crossing& one : labyrinth_.crossings) names.emplace_back(one.name);
+    const std::string& said = line.tag->landmark.text;
+    warning_ = Mistake{Kind::kWireOtherTag, {source::printable(said), {}, {}}, "tag.landmark", line.tag->landmark.at, diagnostics::closest(said, names)};
+  } else if (line.turns_rad && !was_said("turns")) {
+    warning_ = Mistake{Kind::kWireTurns, {fmt::format("{:g}", *line.turns_rad), fmt::format("{:g}", line.senses.heading_rad), {}}, "compass_rad", line.compass_at};
+  } else {
+    warning_ = sensors_.out_of_range(heard_, [&](const std::string& sensor) { return was_said("range " + sensor); });
+  }
 }
 
 /// A host that waits for something to come of it would wait in vain. Each is said once.
@@ -145,7 +188,7 @@ void Exchange::remember_given(const std::string& id) {
 /// See note [a host that was away].
 void Exchange::hear_buttons(bool away) {
   const auto is_in = [](const std::vector<program::CellId>& cells, program::CellId cell) { return std::find(cells.begin(), cells.end(), cell) != cells.end(); };
-  const bool stopped = std::any_of(said_.begin(), said_.end(), [&](const auto& said) { return said.first == abort_ && said.second.value_or(0.0f) > 0.0f; });   // the host may give the button as a fact
+  const bool stopped = is_in(stops_, abort_) || std::any_of(said_.begin(), said_.end(), [&](const auto& said) { return said.first == abort_ && said.second.value_or(0.0f) > 0.0f; });   // the host may give the button as a fact
   const bool pressed = stopped || std::any_of(buttons_.begin(), buttons_.end(), [&](program::CellId button) { return !is_in(held_, button); });
   const bool waits = clock_.waits || away;
   clock_.wakes = clock_.wakes || (waits && pressed);
@@ -156,6 +199,8 @@ void Exchange::hear_buttons(bool away) {
     else told_.erase(cell);
   }
   pressed_.insert(pressed_.end(), buttons_.begin(), buttons_.end());
+  pressed_.insert(pressed_.end(), stops_.begin(), stops_.end());
+  stops_.clear();
   held_ = buttons_;
 }
 
@@ -236,10 +281,9 @@ void Exchange::put(std::string_view landmark, std::string_view exit, double alon
 
 std::optional<Mistake> Exchange::look_up_tag(const Tag& tag) {
   const sim::CrossingId crossing = labyrinth_.crossing(tag.landmark.text);
-  if (crossing == sim::CrossingId::kNone) {
-    std::vector<std::string_view> names;
-    for (const sim::Crossing& one : labyrinth_.crossings) names.emplace_back(one.name);
-    return no_such("landmark", tag.landmark, "tag.landmark", diagnostics::closest(tag.landmark.text, names));
+  if (crossing == sim::CrossingId::kNone) {   // the sign of somebody else
+    tag_ = {true, nullptr, 0};
+    return std::nullopt;
   }
   const std::shared_ptr<const sim::Memory>& memory = floor_.memory(crossing);
   const auto no_exit = [&](const Name& name, std::string field) {

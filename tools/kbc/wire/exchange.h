@@ -11,10 +11,21 @@
 // was not pressed in the line before. The simulator does the same after a power cut. The mind must learn which button it was before the
 // wheels turn, since `Abort` is a button too. While it waits, `Abort` given as a fact is heard as well; other facts are not.
 //
+// note [a refused line that stops]
+// A line that cannot be used changes nothing, since nobody knows which part of it is wrong. But a person who presses `Abort` while the lines
+// are refused, for the sign of a neighbour or a compass that is out of order, must not have pressed in vain. So `Abort` and `Pause` of such a
+// line count on the next tick, as if the next line that is understood had named them. `Abort` ends a waiting as well.
+//
 // note [a clock that leaps]
-// A line whose `t` lies far ahead is taken to come after a pause. If the next line continues from the time before it, that one `t` was wrong
-// and there was no pause. A line not later than the one before is refused. If it lies more than a pause back, and the next line continues
-// from there, the clock was set back, which is treated as a pause. The exchange ticks by a clock of its own, which is never set back.
+// A line whose `t` lies far ahead is taken to come after a pause. A line not later than the one before is refused. If the line after
+// that continues from it, by at most `pause`, time goes on there: either the far `t` alone was wrong and there was no pause, if it is at
+// most a pause after the line before the leap, or the clock was set back, if it lies more than a pause back, which is treated as a pause. One line
+// alone proves nothing: it may have been sent before the pause and have come late, and the wheels must not turn on senses that old. The
+// exchange ticks by a clock of its own, which is never set back.
+//
+// note [a line that comes twice]
+// Some links deliver a line twice. The same bytes as in the line before are answered as that was, and change nothing. A third time they are
+// refused, as not later: a host that hangs and repeats itself must not drive.
 //
 // note [another mind between two lines]
 // The source of missions (orders of a fleet's master) gives the exchange another knowledge base between two lines, presses its own buttons,
@@ -58,7 +69,8 @@ class Exchange {
   /// All must outlive it. Only the body, the range finders and the methods of crossings of `robot` are used.
   Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options);
 
-  /// The answer to one line, without line break. `number`: the number of the line, from 1. Never throws because of its contents.
+  /// The answer to one line, without line break. `number`: the number of the line, from 1. Never throws because of its contents. See
+  /// note [a line that comes twice].
   [[nodiscard]] std::string answer(std::string_view text, std::uint64_t number);
   /// The answer to a line that is not even looked at, because of a mistake.
   [[nodiscard]] std::string refuse(const Mistake& mistake, std::uint64_t number);
@@ -82,7 +94,7 @@ class Exchange {
   [[nodiscard]] bool waits() const { return clock_.waits; }
   /// What the host is to do besides driving, in each answer from the next one on.
   void set_actions(std::vector<vda5050::HostAction> actions);
-  /// The line answered last; nothing if it was not understood.
+  /// The line answered last; nothing if it was not understood, or came for the second time.
   [[nodiscard]] const std::optional<Line>& line() const { return line_; }
   /// The time of that line by the host's clock, as if that had never been set back; that of the line before while its `t` may be wrong.
   [[nodiscard]] std::int64_t now_us() const { return leapt_from_ ? leapt_from_->t_us : clock_.t_us; }
@@ -90,9 +102,10 @@ class Exchange {
   [[nodiscard]] float period_s() const { return period_s_; }
   /// The wheel speeds in the answer to that line.
   [[nodiscard]] mts::Motion wheels() const { return wheels_; }
-  /// The mistake in that line. Such a line changes nothing, except that the wheels stand.
+  /// The mistake in that line. Such a line changes nothing, except that the wheels stand; but see note [a refused line that stops].
   [[nodiscard]] const std::optional<Mistake>& mistake() const { return mistake_; }
-  /// A warning with that line, which was understood: about the clock, or of something that nobody hears.
+  /// A warning with that line, which was understood: about the clock, or, once for each name, of something that is not meant so or that
+  /// nobody hears.
   [[nodiscard]] const std::optional<Mistake>& warning() const { return warning_; }
 
  private:
@@ -106,8 +119,11 @@ class Exchange {
 
   [[nodiscard]] std::optional<Mistake> take(std::string_view text, Answer& answer);
   [[nodiscard]] std::optional<Mistake> follow_clock(const Line& line, bool& set_back);
+  void warn_of_what_is_odd(const Line& line);
   void warn_of_what_nobody_hears(const Line& line);
+  [[nodiscard]] bool was_said(std::string what);
   void remember_given(const std::string& id);
+  void hear_stops(std::string_view text);
   void hear_buttons(bool away);
   void hear_sensors(std::int64_t t_us);
   [[nodiscard]] std::optional<Mistake> look_up(const Line& line);
@@ -120,7 +136,7 @@ class Exchange {
   void tell(Answer& answer) const;
 
   const sim::Knowledge* knowledge_;
-  const program::CellId abort_;                      // kNone: there is none; facts are the same in all knowledge bases taken
+  const program::CellId abort_, pause_;              // kNone: there is none; facts are the same in all knowledge bases taken
   const sim::Labyrinth& labyrinth_;
   ExchangeOptions options_;
   sim::Floor floor_;
@@ -134,6 +150,8 @@ class Exchange {
   std::set<std::string, std::less<>> given_;         // the ids of actions that were in an answer, or that were warned of
   std::deque<std::string> given_in_turn_;            // the same, oldest first
   bool warned_of_master_ = false;
+  std::set<std::string, std::less<>> said_once_;     // of what is odd
+  std::string text_, answer_;                        // of the last line, if it was understood and has come once
 
   // The names of the present line, looked up.
   sim::TagHeard tag_;
@@ -143,7 +161,7 @@ class Exchange {
 
   // See note [a clock that leaps].
   Clock clock_;
-  std::optional<Clock> leapt_from_;                  // the clock before the last line, if that came after a pause
+  std::optional<Clock> leapt_from_;                  // the clock before the last line that was understood, if that came after a pause
   std::optional<std::int64_t> refused_us_;           // `t` of the last line, if it was not later than the one before
   std::int64_t offset_us_ = 0;                       // from our own clock to the host's
   int pauses_ = 0;                                   // how many lines in a row, up to the last, came after a pause
@@ -153,6 +171,7 @@ class Exchange {
   bool began_ = false, holds_ = false;
   std::vector<program::CellId> held_;                // pressed in the line before
   std::vector<program::CellId> pressed_;             // since the last tick
+  std::vector<program::CellId> stops_;               // since the last line that was understood: see note [a refused line that stops]
   std::map<program::CellId, float> told_;            // facts given by the host
 };
 

@@ -17,7 +17,8 @@ using program::append_json;
 using program::append_number;
 
 constexpr double kLatest = 1e11;                 // s: some 3,000 years
-constexpr double kFullTurn = 6.283186;           // rad: a host that sends degrees gets a message
+constexpr double kPi = 3.14159265358979323846;
+constexpr float kFullTurn = 6.283186f;           // rad
 constexpr Range kDark{-0.5, 1.5};                // a sensor may be slightly out of range
 constexpr Range kRow{-1.0, 1.0};                 // m: a host that sends millimetres gets a message
 constexpr Range kMetres{-1e6, 1e6}, kRanges{-1e6, 1000.0}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0}, kMeasured{-1e30, 1e30};
@@ -57,6 +58,17 @@ constexpr std::array kGuideFields{
     Field<Guide>{"left_m", [](Reading& reading, const Json& json, Guide& guide) { reading.number("line.left_m", json, kRow, guide.left_m.emplace()); }},
     Field<Guide>{"across", [](Reading& reading, const Json& json, Guide& guide) { reading.truth("line.across", json, guide.across); }},
 };
+
+/// Up to a full turn as it is said, to the last bit; the compass of some robots counts on beyond that.
+void read_compass(Reading& reading, const Json& json, Line& line) {
+  float& heading_rad = line.senses.heading_rad;
+  reading.number("compass_rad", json, kAngles, heading_rad);
+  line.senses.heading_known = true;
+  line.compass_at = json.span;
+  if (std::abs(heading_rad) <= kFullTurn) return;
+  line.turns_rad = heading_rad;
+  heading_rad = static_cast<float>(std::remainder(static_cast<double>(heading_rad), 2.0 * kPi));
+}
 
 /// Five darknesses, or the readings of a sensor that measures where the line is.
 void read_floor(Reading& reading, const Json& json, Draft& draft) {
@@ -110,9 +122,8 @@ constexpr std::array kFields{
       draft.line.senses.range_known = true;
     }, "m", "8 range finders, every 45 degrees counter-clockwise, the first ahead: from the robot's centre; 4 (times the robot's size) and more: nothing is there; null: unknown"},
     Field<Draft>{"compass_rad", [](Reading& reading, const Json& json, Draft& draft) {
-      reading.number("compass_rad", json, {-kFullTurn, kFullTurn}, draft.line.senses.heading_rad);
-      draft.line.senses.heading_known = true;
-    }, "rad", "counter-clockwise from east"},
+      read_compass(reading, json, draft.line);
+    }, "rad", "counter-clockwise from east; whole turns do not matter"},
     Field<Draft>{"odometry_x_m", [](Reading& reading, const Json& json, Draft& draft) {
       reading.number("odometry_x_m", json, kMetres, draft.line.senses.x_m);
       draft.x = true;

@@ -45,7 +45,8 @@ struct Line {
   std::vector<Measured> readings;
   Vehicle vehicle;
   std::vector<vda5050::HostActionState> actions;
-  source::Span t_at{}, vehicle_at{}, actions_at{};   ///< the places of the time, and of these fields; empty: it has them not
+  std::optional<float> turns_rad;  ///< the compass as it was said, if that is more than a full turn; `senses` have it without whole turns
+  source::Span t_at{}, compass_at{}, vehicle_at{}, actions_at{};   ///< the places of the time, and of these fields; empty: it has them not
 };
 
 /// Reads a line, or its first mistake. Names are not looked up. O(bytes).

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace kb::wire {
 
 using diagnostics::Kind;
@@ -69,6 +72,21 @@ std::optional<Mistake> OwnSensors::look_up(const std::vector<Line::Measured>& me
   return std::nullopt;
 }
 
+std::optional<Mistake> OwnSensors::out_of_range(const std::vector<Heard>& heard, const std::function<bool(const std::string& sensor)>& said) const {
+  const program::Perception& perception = knowledge_.program->perception;
+  for (const Heard& one : heard) {
+    const program::Sensor& sensor = perception.sensor_of(one.reading);
+    const float* const value = std::get_if<float>(&one.value);
+    if (value == nullptr || sensor.text || sensor.circular || sensor.strict) continue;
+    const double says = static_cast<double>(*value);
+    const double beside = static_cast<double>(std::numeric_limits<float>::epsilon()) * std::max(std::abs(sensor.low), std::abs(sensor.high));   // 0.1 is no float
+    if ((says >= sensor.low - beside && says <= sensor.high + beside) || said(sensor.name)) continue;
+    const std::string field = "readings." + perception.reading_name(one.reading);
+    return Mistake{Kind::kWireOutOfRange, {field, fmt::format("{:g}", *value), fmt::format("{:g}", says < sensor.low ? sensor.low : sensor.high)}, field, one.at};
+  }
+  return std::nullopt;
+}
+
 std::optional<Mistake> OwnSensors::look_up(const Line::Measured& one, const Place& place, std::vector<Heard>& heard) const {
   const program::Perception& perception = knowledge_.program->perception;
   const std::string field = "readings." + one.sensor.text;
@@ -85,7 +103,7 @@ std::optional<Mistake> OwnSensors::look_up(const Line::Measured& one, const Plac
       return Mistake{Kind::kWireOtherField, {perception.reading_name(place.first + i), std::string(other), {}}, field, one.sensor.at};
     }
     if (says && is_text != text) return wrong(place.list ? fmt::format("{}[{}]", field, i) : field, is_text ? "a string" : "a number", text ? "a string" : "a number");
-    heard.push_back({place.first + i, value});
+    heard.push_back({place.first + i, value, one.sensor.at});
   }
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,9 +24,12 @@ class OwnSensors {
   struct Heard {
     std::uint32_t reading = 0;
     Line::Value value;
+    source::Span at{};
   };
   /// Looks up what a line has measured; returns the first mistake.
   [[nodiscard]] std::optional<Mistake> look_up(const std::vector<Line::Measured>& measured, std::vector<Heard>& heard) const;
+  /// The warning for the first of these whose sensor has a range that it lies outside of; `said`: what was warned of already.
+  [[nodiscard]] std::optional<Mistake> out_of_range(const std::vector<Heard>& heard, const std::function<bool(const std::string& sensor)>& said) const;
   /// A sensor of which the host gives the elements from `from` on: the robot has those before.
   struct Sensor { const program::Sensor* sensor = nullptr; std::uint32_t from = 0; };
   /// In order of declaration.

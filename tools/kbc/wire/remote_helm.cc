@@ -56,7 +56,9 @@ bool RemoteHelm::exchange(const std::string& line) {
   if (const Came came = channel.read(text_, options_.within_ms); came != Came::kLine) return fail(came), false;
   auto read = read_answer(text_);
   if (const auto* mistake = std::get_if<Mistake>(&read)) return garbled(fmt::format("{}: {}", message_of(*mistake), source::printable(text_))), false;
+  const std::optional<bool> mission = answer_.mission;
   answer_ = std::move(std::get<Answer>(read));
+  if (!answer_.mission) answer_.mission = mission;   // as in the answer to a line that could not be used: no mission begins or ends by it
   return true;
 }
 

@@ -31,6 +31,7 @@ class RemoteHelm final : public sim::Helm {
   void release(program::CellId fact) override;
   [[nodiscard]] mts::Motion step(std::int64_t now_us, const mts::Senses& senses, const sim::TagHeard& tag, float dt_s) override;
   [[nodiscard]] sim::Judge::Belief belief() const override;
+  /// As reported last.
   [[nodiscard]] std::optional<bool> mission() const override { return answer_.mission; }
   [[nodiscard]] const std::string& goal() const override { return answer_.goal; }
   [[nodiscard]] std::vector<std::string> reports() const override;

@@ -1,0 +1,1 @@
+# RUN: printf 'levels a > b\nfact Wall\nsatellite S\nrule r at a when Wall then +S\nrule q at b while S then -S\n' > %t/m.kb; cd %t; printf 'Wall\n1\n0.' > drive.csv; kbc run -q m.kb --facts drive.csv | cut -c 1-60; kbc run -q m.kb --facts - < drive.csv | tail -1 | cut -c 1-60

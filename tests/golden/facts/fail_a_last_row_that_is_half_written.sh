@@ -1,0 +1,1 @@
+# RUN: printf 'levels a > b\nfact Wall, Door\nsatellite S\nrule r at a when Wall or Door then +S\nrule q at b while S then -S\n' > %t/m.kb; cd %t; printf 'Wall,Door\n1,1\n0.' > drive.csv; kbc run m.kb --facts drive.csv

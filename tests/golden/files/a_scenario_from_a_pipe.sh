@@ -1,0 +1,1 @@
+# RUN: kbc sim ../drive/session.d/works.kb -w --scenario <(echo 'limit = 3'; sleep 0.2; echo 'title = "none"') --summary - -q | grep -o '"time_s":[^,]*'; kbc check /dev/fd/3 3< <(echo 'levels a > b'); mkfifo %t/named; timeout 20 kbc check %t/named; echo $?

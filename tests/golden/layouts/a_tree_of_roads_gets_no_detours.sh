@@ -1,0 +1,1 @@
+# RUN: kbc import nav2 %d/tree.json --route 1,4 -o %t/tree.kb; grep -A 3 '^route' %t/tree.kb; kbc check -Werror %t/tree.kb && echo sound; sed 's/^]}/,{"type":"Feature","properties":{"id":17,"startid":1,"endid":4},"geometry":{"type":"MultiLineString","coordinates":[]}}]}/' %d/tree.json > %t/ring.json; kbc import nav2 %t/ring.json --route 1,3 | grep detours

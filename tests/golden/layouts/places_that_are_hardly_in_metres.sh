@@ -1,0 +1,1 @@
+# RUN: sed 's/\[\([0-9]*\), \([0-9]*\)\]/[\1e3, \2e3]/' a_tree_of_roads_gets_no_detours.d/tree.json > %t/mm.json; sed 's/\[\([0-9]*\), \([0-9]*\)\]/[8.5410\1, 47.3700\2]/' a_tree_of_roads_gets_no_detours.d/tree.json > %t/degrees.json; for f in mm degrees; do kbc import nav2 %t/$f.json -o %t/$f.kb; done

@@ -1,0 +1,2 @@
+# RUN: cd %d; for when in '{ crossing = "Well" }' '{ time = 0.5 }'; do (printf '[[event]]\nwhen = { time = 1 }\npress = "Go"\n[[event]]\nclose = "Well.E"\nwhen = '; echo "$when") > %t/closes.toml; kbc sim town.kb -w --scenario %t/closes.toml --expect arrived; echo "exit code $?"; kbc sim town.kb -w --driver "python3 blind.py" --scenario %t/closes.toml | grep closed; done
+# A driver that reads no signs takes the road although it was closed before the robot came.

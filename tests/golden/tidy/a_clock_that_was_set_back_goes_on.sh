@@ -1,0 +1,1 @@
+# RUN: printf '# dt\nt,Wall\n100,0\n100.1,1\n# the recorder was restarted\n0,1\n0.1,0\n0.25,0\n' > %t/drive.csv; for how in drop shift sort; do echo "-- $how"; kbc tidy %t/drive.csv --clock $how; done

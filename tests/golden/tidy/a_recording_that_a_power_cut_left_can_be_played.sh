@@ -1,0 +1,1 @@
+# RUN: printf 't,Wall\n0,0\n0.1,1\n0.05,1\n0.2,0\n0.3,' > %t/drive.csv; kbc tidy %t/drive.csv -o %t/whole.csv; cat %t/whole.csv; printf '# kb\nlevels a > b\nfact Wall\nsatellite S\nrule r at a when Wall then +S\nrule q at b while S then -S\n' > %t/m.kb; kbc run -w %t/m.kb --facts %t/whole.csv | cut -c 1-60

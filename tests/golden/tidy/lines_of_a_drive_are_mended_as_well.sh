@@ -1,0 +1,1 @@
+# RUN: printf '{"t":1,"tag":{}}\n{"t":1.02,"tag":{}}\n{"buttons":["Go"],"t":1.02}\nnonsense\n{"t":1.04}\n{"t":1.0' > %t/drive.jsonl; for how in drop shift sort; do echo "-- $how"; kbc tidy %t/drive.jsonl --clock $how; done

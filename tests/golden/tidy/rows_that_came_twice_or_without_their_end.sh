@@ -1,0 +1,1 @@
+# RUN: printf 't,Wall,"In[a,b]"\n0,0,1\n0,0,1\n+0.1,1,"1"\n0.2,1,1' > %t/drive.csv; kbc tidy %t/drive.csv --duplicates drop; echo; kbc tidy %t/drive.csv --last-row keep; kbc tidy - < %t/drive.csv -q | tail -1; printf 'Wall\r\n1\r\n0\r\n' | kbc tidy - | od -c | head -2
