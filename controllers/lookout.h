@@ -39,6 +39,10 @@ struct Sign {
   bool reader = true;               ///< false: the reader itself is silent, so nothing is known
 };
 
+/// The facts that a lookout writes, and the groups of such.
+inline constexpr const char* kPerceivedFacts[] = {"Line", "Obst", "Touched", "Due", "Turned", "Carried", "Trapped", "NoWay", "Safe"};
+inline constexpr const char* kPerceivedGroups[] = {"Track", "MoveBy", "Blind", "In", "Closed", "CrossBy"};
+
 /// The facts of a compiled knowledge base by their numbers, and its map. A program that knows its knowledge base only at run time gives Lookout
 /// a class like this of its own.
 template <class Knowledge>
@@ -66,8 +70,8 @@ class Lookout {
   /// the first crossing of a mission counts as one of roads at right angles. Looks up names: O(facts).
   explicit Lookout(const Body& body, const FactRuns& landmarks, FindRoad find_road = nullptr, Names names = {}) noexcept
       : names_(names), watch_(body, find("Carried") != kNone), landmarks_(landmarks), find_road_(find_road) {
-    for (std::size_t i = 0; i < kGroups; ++i) groups_[i] = find_group(kGroupNames[i]);
-    for (std::size_t i = 0; i < kSingles; ++i) singles_[i] = find(kSingleNames[i]);
+    for (std::size_t i = 0; i < kGroups; ++i) groups_[i] = find_group(kPerceivedGroups[i]);
+    for (std::size_t i = 0; i < kSingles; ++i) singles_[i] = find(kPerceivedFacts[i]);
   }
 
   /// Each period, after the pilot's `step`. `measured`: the darknesses were computed from a measured line, and may stay the same for metres although
@@ -106,10 +110,9 @@ class Lookout {
     Index first = 0, count = 0;
     std::uint8_t prefix = 0;   ///< letters before the name of a member: 3 in "In.N"
   };
-  enum GroupId : std::size_t { kTrack, kMoveBy, kBlind, kIn, kClosed, kCrossBy, kGroups };
-  enum SingleId : std::size_t { kLine, kObst, kTouched, kDue, kTurned, kCarried, kTrapped, kNoWay, kSafe, kSingles };
-  static constexpr const char* kGroupNames[kGroups] = {"Track", "MoveBy", "Blind", "In", "Closed", "CrossBy"};
-  static constexpr const char* kSingleNames[kSingles] = {"Line", "Obst", "Touched", "Due", "Turned", "Carried", "Trapped", "NoWay", "Safe"};
+  enum GroupId : std::size_t { kTrack, kMoveBy, kBlind, kIn, kClosed, kCrossBy, kGroups };   // of kPerceivedGroups, in this order
+  enum SingleId : std::size_t { kLine, kObst, kTouched, kDue, kTurned, kCarried, kTrapped, kNoWay, kSafe, kSingles };   // of kPerceivedFacts
+  static_assert(sizeof kPerceivedGroups / sizeof kPerceivedGroups[0] == kGroups && sizeof kPerceivedFacts / sizeof kPerceivedFacts[0] == kSingles);
 
   [[nodiscard]] const char* name_of(Index fact) const noexcept { return names_.name_of(fact); }
   [[nodiscard]] Index find(const char* text) const noexcept {

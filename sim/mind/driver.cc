@@ -15,13 +15,12 @@ std::vector<std::string> names_of_facts(const program::Program& program) {
 }
 
 /// The landmarks among the facts.
-std::vector<mts::FactRun> runs_of(const FactCells& facts) {
-  std::vector<FactIndex> landmarks;
-  for (const NamedFact& landmark : facts.landmarks) landmarks.push_back(landmark.fact);
+std::vector<mts::FactRun> runs_of(std::vector<program::CellId> landmarks) {
   std::ranges::sort(landmarks);
   std::vector<mts::FactRun> runs;
-  for (const FactIndex fact : landmarks) {
-    const FactIndex past = runs.empty() ? 0 : runs.back().first + runs.back().count;
+  for (const program::CellId landmark : landmarks) {
+    const auto fact = static_cast<std::uint32_t>(landmark);
+    const std::uint32_t past = runs.empty() ? 0 : runs.back().first + runs.back().count;
     if (runs.empty() || fact > past) runs.push_back({fact, 1});
     else if (fact == past) ++runs.back().count;   // below: a landmark of two maps
   }
@@ -44,7 +43,7 @@ Driver::Driver(const Knowledge& knowledge, const Labyrinth& labyrinth, const mts
       roads_(labyrinth),
       lines_(knowledge),
       names_(names_of_facts(*knowledge.program)),
-      landmarks_(runs_of(knowledge.facts)),
+      landmarks_(runs_of(knowledge.landmarks)),
       halls_(knowledge, labyrinth, roads_, pilot_),
       pilot_(body, halls_.host()),
       lookout_(body, {landmarks_.data(), landmarks_.size()}, {&roads_}, {&names_}),

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include <waymark/controllers/lookout.h>
 #include "sim/mind/control_words.h"
 #include "sim/mind/hall_rules.h"
 
@@ -30,16 +31,7 @@ constexpr std::array kCrossPresets{
 /// Finds what a strategy does, its turn and its method in its name: `Cross[left,mark]`, `Move.mark`.
 void take_apart(Strategy& strategy) {
   const std::string_view name = strategy.name;
-  const auto is = [&](std::string_view word, Doing doing) {
-    if (name == word) strategy.doing = doing;
-  };
-  strategy.doing = Doing::kOther;
-  is("Stop", Doing::kStop);
-  is("Search", Doing::kStop);
-  is("Hold", Doing::kStop);
-  is("Avoid", Doing::kAvoid);
-  is("Round", Doing::kRound);
-  is("Escape", Doing::kMove);
+  if (name == "Escape") strategy.doing = Doing::kMove;
   const std::size_t comma = name.find(',');
   if (name.starts_with("Move.")) {
     strategy.doing = Doing::kMove;
@@ -140,10 +132,7 @@ bool bind(Strategy& strategy, const program::Program& program, std::set<std::str
   const bool written = control != program.controls.end();
   strategy.control = written ? &*control : nullptr;
   const std::string name(word_for(strategy));
-  if (written && stubs != nullptr && std::find(stubs->begin(), stubs->end(), name) != stubs->end()) {
-    strategy.doing = strategy.doing == Doing::kOther ? Doing::kStop : strategy.doing;   // the controller is `stand`
-    return true;
-  }
+  if (written && stubs != nullptr && std::find(stubs->begin(), stubs->end(), name) != stubs->end()) return true;   // the controller is `stand`
   if (written && control->fuzzy != fuzzy::kNone) {
     strategy.controller = mts::ControllerId::kFollowRules;
     return check_rules(program.fuzzy[control->fuzzy], *control, diagnostics);
@@ -158,7 +147,6 @@ bool bind(Strategy& strategy, const program::Program& program, std::set<std::str
     return false;
   }
   strategy.controller = entry->id;
-  if (strategy.doing == Doing::kOther && entry->id == mts::ControllerId::kStand) strategy.doing = Doing::kStop;   // a halt of the user's own, such as a pause
   bool good = true;
   if (written) {
     for (const auto& argument : control->arguments) good = take_argument(strategy, *control, argument, diagnostics) && good;
@@ -166,35 +154,20 @@ bool bind(Strategy& strategy, const program::Program& program, std::set<std::str
   return good;
 }
 
-void find_facts(const model::Model& model, const program::Program& program, FactCells& facts) {
-  const auto group = [&](std::string_view prefix, std::size_t i, std::vector<NamedFact>& members) {
-    const std::string_view name = program.cells[i].name;
-    if (name.starts_with(prefix)) members.push_back({std::string(name.substr(prefix.size())), static_cast<FactIndex>(i)});
-  };
+void find_facts(const model::Model& model, const program::Program& program, Knowledge& out) {
+  constexpr std::string_view kCrossBy = "CrossBy.";
   for (std::size_t i = 0; i < program.facts; ++i) {
     const std::string_view name = program.cells[i].name;
-    if (name == "Line") facts.line = static_cast<FactIndex>(i);
-    if (name == "Obst") facts.obstacle = static_cast<FactIndex>(i);
-    if (name == "Safe") facts.safe = static_cast<FactIndex>(i);
-    if (name == "Due") facts.due = static_cast<FactIndex>(i);
-    if (name == "Carried") facts.carried = static_cast<FactIndex>(i);
-    if (name == "Trapped") facts.trapped = static_cast<FactIndex>(i);
-    if (name == "NoWay") facts.no_way = static_cast<FactIndex>(i);
-    if (name == "Touched") facts.touched = static_cast<FactIndex>(i);
-    if (name == "Turned") facts.turned = static_cast<FactIndex>(i);
-    group("In.", i, facts.in);
-    group("Closed.", i, facts.closed);
-    group("CrossBy.", i, facts.cross_by);
-    group("MoveBy.", i, facts.move_by);
-    group("Track.", i, facts.track);
-    group("Blind.", i, facts.blind);
+    const bool single = std::ranges::any_of(mts::kPerceivedFacts, [&](const char* fact) { return name == fact; });
+    const bool member = std::ranges::any_of(mts::kPerceivedGroups, [&](const char* group) { return name.starts_with(std::string(group) + '.'); });
+    if (single || member) out.perceived.push_back(static_cast<program::CellId>(i));
+    if (name.starts_with(kCrossBy)) out.methods.push_back(name.substr(kCrossBy.size()));
   }
   const auto order = program::cell_order(model);
   for (const model::Map& map : model.maps) {
-    for (const model::RowId row : map.landmarks) {
-      facts.landmarks.push_back({std::string(model[row].name), static_cast<FactIndex>(order[model::index(model[row].cell)])});
-    }
+    for (const model::RowId row : map.landmarks) out.landmarks.push_back(order[model::index(model[row].cell)]);
   }
+  out.perceived.insert(out.perceived.end(), out.landmarks.begin(), out.landmarks.end());
 }
 
 std::string landmark_in(const model::Model& model, const model::Row& row, std::string_view field) {
@@ -288,7 +261,7 @@ std::optional<Knowledge> prepare(const model::Model& model, const program::Progr
   Knowledge out;
   out.program = &program;
   out.tables = &tables;
-  find_facts(model, program, out.facts);
+  find_facts(model, program, out);
   find_plans(model, out);
   out.limits = limits_of(model);
   bool good = stubs == nullptr || check_stubs(program, *stubs, diagnostics);

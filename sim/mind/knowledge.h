@@ -19,26 +19,13 @@
 
 namespace kb::sim {
 
-/// Index of a fact; kNoFact if the knowledge base has none of that name.
-using FactIndex = std::uint32_t;
-inline constexpr FactIndex kNoFact = 0xFFFFFFFFu;
-
-struct NamedFact { std::string name; FactIndex fact = kNoFact; };
-
-/// The facts of the standard library that the simulator supplies. Members of groups are keyed by the member's name: `N` for `In.N`.
-struct FactCells {
-  FactIndex line = kNoFact, obstacle = kNoFact, safe = kNoFact, turned = kNoFact, due = kNoFact, carried = kNoFact;
-  FactIndex trapped = kNoFact, no_way = kNoFact, touched = kNoFact;
-  std::vector<NamedFact> in, closed, cross_by, move_by, track, blind, landmarks;
-};
-
-/// What a strategy means to the robot.
-enum class Doing : std::uint8_t { kNothing, kStop, kMove, kCross, kAvoid, kRound, kOther };
+/// What a strategy means to the judge of a drive.
+enum class Doing : std::uint8_t { kOther, kMove, kCross };
 
 struct Strategy {
   program::CellId cell = program::CellId::kNone;
   std::string name;
-  Doing doing = Doing::kNothing;
+  Doing doing = Doing::kOther;
   std::string method;                 ///< `Move[k]`, `Cross[t, k]`: k
   std::string turn;                   ///< `Cross[t, k]`, `Grope[t]`: t
   mts::ControllerId controller = mts::ControllerId::kStand;
@@ -80,7 +67,9 @@ struct Knowledge {
   const program::Program* program = nullptr;
   const tables::Tables* tables = nullptr;
   const tables::LoadedImage* image = nullptr;   ///< the image of the same, on which a mind runs that is to take another; null: it runs on the tables
-  FactCells facts;
+  std::vector<program::CellId> perceived;   ///< the facts of the standard library that a driver supplies: see lookout.h
+  std::vector<program::CellId> landmarks;   ///< of all maps; among those
+  std::vector<std::string_view> methods;    ///< by which a crossing can be driven: `mark` for `CrossBy.mark`
   std::vector<Strategy> strategies;   ///< by the program's order of strategies
   std::vector<Leg> legs;
   std::vector<program::CellId> routes, reports, outputs;   ///< satellites of routes; `Help.*`; those declared `output`

@@ -103,8 +103,7 @@ void read_crossings(TomlTable& file, const Names& names, Scenario& scenario) {
     auto methods = table.texts("methods");
     if (!table.has("landmark")) table.missing("landmark");
     if (!table.has("methods")) table.missing("methods");
-    std::vector<std::string_view> known;
-    for (const NamedFact& by : names.knowledge.facts.cross_by) known.emplace_back(by.name);
+    const std::vector<std::string_view>& known = names.knowledge.methods;
     for (const std::string& method : methods) {
       if (std::find(known.begin(), known.end(), method) == known.end()) table.unknown_name("methods", "method", method, known);
     }

@@ -17,14 +17,10 @@ using Document = nlohmann::ordered_json;
 /// Rounds to a tenth of a millimetre or milliradian.
 double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-/// Facts that are made from senses: by the simulator's perception, and by that of the knowledge base.
-std::set<sim::FactIndex> perceived(const sim::Knowledge& knowledge) {
-  const sim::FactCells& cells = knowledge.facts;
-  std::set<sim::FactIndex> facts{cells.line, cells.obstacle, cells.safe, cells.turned, cells.due, cells.carried, cells.trapped, cells.no_way, cells.touched};
-  for (const auto* group : {&cells.in, &cells.closed, &cells.cross_by, &cells.move_by, &cells.track, &cells.blind, &cells.landmarks}) {
-    for (const sim::NamedFact& named : *group) facts.insert(named.fact);
-  }
-  for (const program::Perceived& one : knowledge.program->perception.perceived) facts.insert(static_cast<sim::FactIndex>(one.fact));
+/// Facts that are made from senses: by the driver, and by the knowledge base's own perception.
+std::set<program::CellId> perceived(const sim::Knowledge& knowledge) {
+  std::set<program::CellId> facts(knowledge.perceived.begin(), knowledge.perceived.end());
+  for (const program::Perceived& one : knowledge.program->perception.perceived) facts.insert(one.fact);
   return facts;
 }
 
@@ -74,11 +70,11 @@ Document floor_json(const mts::Body& body) {
 }  // namespace
 
 std::string describe(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, const ExchangeOptions& options) {
-  const std::set<sim::FactIndex> known = perceived(knowledge);
+  const std::set<program::CellId> known = perceived(knowledge);
   Document buttons = Document::array(), told = Document::array(), made = Document::array(), missions = Document::array();
-  for (sim::FactIndex fact = 0; fact < knowledge.program->facts; ++fact) {
+  for (std::uint32_t fact = 0; fact < knowledge.program->facts; ++fact) {
     const program::Cell& cell = knowledge.program->cells[fact];
-    (cell.command ? buttons : known.contains(fact) ? made : told).push_back(cell.name);
+    (cell.command ? buttons : known.contains(program::CellId{fact}) ? made : told).push_back(cell.name);
   }
   for (const sim::Mission& mission : knowledge.missions) missions.push_back({{"command", knowledge.program->cells[program::index(mission.command)].name}, {"goal", mission.goal}});
   const Document all{{"tick_s", options.dt_us / 1e6}, {"pause_s", static_cast<double>(options.pause_us) / 1e6}, {"scale", labyrinth.scale}, {"robot", robot_json(robot)}, {"floor", floor_json(robot.body)},
