@@ -24,6 +24,9 @@
 // The drivers of `kbc sim` and `kbc drive` are a lookout and a pilot too.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "road_watch.h"
 
 namespace mts {

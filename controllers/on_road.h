@@ -5,6 +5,9 @@
 // so that the drift of compass and odometry does not grow with the distance (map matching; the gain is that of a low-pass filter).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "line_sight.h"
 #include "reckoning.h"
 #include "road_map.h"

@@ -46,7 +46,7 @@ inline constexpr Parameter kTurnParameter{"turn", "", 2.0f, 0.0f, 3.0f, "how the
 inline constexpr ControllerEntry kControllers[] = {
     {"follow_line", ControllerId::kFollowLine, "drives along a painted line", "line", false},
     {"keep_wall", ControllerId::kKeepWall, "drives between walls, or with one at a hand", "range finders", false},
-    {"hold_heading", ControllerId::kHoldHeading, "drives the course that the landmark's memory tells", "odometry, compass",
+    {"hold_heading", ControllerId::kHoldHeading, "drives the course that the map tells", "odometry, compass",
      false},
     {"turn_on_line", ControllerId::kTurnOnLine, "drives over a crossing by its painted lines",
      "line, odometry, a heading", true},

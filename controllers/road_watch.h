@@ -16,6 +16,9 @@
 // itself is well behind it. If it finds no way round, it is still in the crossing.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "lifted.h"
 #include "liveness.h"
 #include "obstacle_sight.h"
@@ -231,6 +234,7 @@ class RoadWatch {
     else if (leaves_) beside_m_ = 0.0f;   // it begins in the middle of another road
     if (leaves_ && at_ == At::kCrossing) {
       at_ = At::kLeaving;
+      sign_.exit = "", sign_.exit_rad_known = false;   // it was read on the way in
       since_m_ = unread_s_ = 0.0f;
     }
   }

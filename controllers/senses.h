@@ -46,7 +46,7 @@ struct Senses {
 };
 static_assert(kRangeFinders <= 8, "Senses::ranges_unknown has a bit for each");
 
-/// A straight piece of a road, as stored in a landmark's memory.
+/// A straight piece of a road.
 struct Piece {
   float heading_rad = 0.0f;
   float length_m = 0.0f;

@@ -59,7 +59,7 @@ std::optional<Roads> roads_of_legs(const model::Model& model) {
 
 void add_road(const GroundRoad& road, Rows& rows) {
   const std::size_t first = rows.piece_count;
-  for (const model::GroundPiece& piece : model::pieces_of(road)) {
+  for (const model::GroundPiece& piece : model::pieces_of(road.course)) {
     fmt::format_to(Out(rows.pieces), "    {{{}, {}}},  // {}.{}\n", float_literal(static_cast<float>(piece.heading_rad)), float_literal(static_cast<float>(piece.length_m)), road.from, road.exit);
     ++rows.piece_count;
   }

@@ -60,17 +60,16 @@ GroundRoad reversed(const GroundRoad& road) {
   return back;
 }
 
-std::vector<GroundPiece> pieces_of(const GroundRoad& road, double metre) {
+std::vector<GroundPiece> pieces_of(std::span<const Point> course) {
   constexpr double kShortest_m = 0.01;
   std::vector<GroundPiece> pieces;
-  Point here = road.course.front();
-  for (std::size_t i = 1; i < road.course.size(); ++i) {
-    const Point there = road.course[i];
-    const double length_m = metre * std::hypot(there.x - here.x, there.y - here.y);
-    const bool only = i + 1 == road.course.size() && pieces.empty();
+  Point here = course.front();
+  for (std::size_t i = 1; i < course.size(); ++i) {
+    const double length_m = std::hypot(course[i].x - here.x, course[i].y - here.y);
+    const bool only = i + 1 == course.size() && pieces.empty();
     if (length_m < kShortest_m && !only) continue;
-    pieces.push_back({direction(here, there), length_m});
-    here = there;
+    pieces.push_back({direction(here, course[i]), length_m});
+    here = course[i];
   }
   return pieces;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +26,8 @@ struct GroundRoad {
 
 /// A straight stretch of a course.
 struct GroundPiece { double heading_rad = 0.0, length_m = 0.0; };
-/// The course without what is shorter than 1 cm, unless there is nothing else: at least one piece. A metre of the map is `metre` long.
-[[nodiscard]] std::vector<GroundPiece> pieces_of(const GroundRoad& road, double metre = 1.0);
+/// A course of two points or more, without what is shorter than 1 cm unless there is nothing else: at least one piece.
+[[nodiscard]] std::vector<GroundPiece> pieces_of(std::span<const Point> course);
 
 /// The roads of the map, in its order. Nothing if its relations are the user's own and do not say where things lie: landmarks need `at`,
 /// roads `from`, `to` and `exit`. O(n log n).

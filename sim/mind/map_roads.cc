@@ -3,23 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/model/ground.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
 namespace {
 
-constexpr double kShortestPiece = 0.01;   // m
-
 std::vector<mts::Piece> pieces_of(const Labyrinth& labyrinth, const Arm& arm) {
-  std::vector<mts::Piece> pieces;
-  Spot here = labyrinth.point(arm, 0);
-  const std::size_t count = labyrinth[arm.road].along.size();
-  for (std::size_t i = 1; i < count; ++i) {
-    const Spot piece = labyrinth.point(arm, i) - here;
-    if (length(piece) < kShortestPiece && (i + 1 < count || !pieces.empty())) continue;
-    pieces.push_back({static_cast<float>(heading(piece)), static_cast<float>(length(piece))});
-    here = labyrinth.point(arm, i);
+  std::vector<model::Point> course;
+  for (std::size_t i = 0; i < labyrinth[arm.road].along.size(); ++i) {
+    const Spot spot = labyrinth.point(arm, i);
+    course.push_back({spot.x_m, spot.y_m});
   }
+  std::vector<mts::Piece> pieces;
+  for (const model::GroundPiece& piece : model::pieces_of(course)) pieces.push_back({static_cast<float>(piece.heading_rad), static_cast<float>(piece.length_m)});
   return pieces;
 }
 

@@ -1,5 +1,5 @@
-// The map of a hall, known before any robot drives through it: its walls, and what was built into it. The memories of the landmarks at
-// its ends hold it. Metres of the floor.
+// The map of a hall, known before any robot drives through it: its walls, and what was built into it. The planners for halls find their
+// way by it. Metres of the floor.
 #pragma once
 
 #include <memory>

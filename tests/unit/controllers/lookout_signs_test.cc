@@ -72,6 +72,20 @@ TEST(Signs, FromTheSignThatItLeavesARobotLearnsItsRoadAndHowThatIsDriven) {
   EXPECT_EQ(reader.facts.MoveBy.mark, -0.9f);
 }
 
+TEST(Signs, BehindACrossingWhoseWayOutHasNoSignTheMapSaysHowTheRoadIsDriven) {
+  static constexpr ControlLine kOver = {"turn_on_line", nullptr, 0};
+  Reader reader;
+  reader.pilot.put(*stray::find_road("Dock", "E"), 2.2f);
+  reader.read("Arch", "W");
+  reader.pilot.choose(&kOver, stray::find_road("Arch", "E"));
+  reader.go(0.8f);
+  reader.pilot.choose(&Reader::kFollow, stray::find_road("Arch", "E"));
+  reader.go(0.02f);
+  EXPECT_EQ(reader.lookout.watch().at(), RoadWatch::At::kLeaving);
+  EXPECT_EQ(reader.facts.MoveBy.dist, 0.9f);
+  EXPECT_EQ(reader.facts.MoveBy.mark, -0.9f) << "that was the road on which it came";
+}
+
 TEST(Signs, ARobotThatTurnsRoundOnItsRoadComesToTheLandmarkBehindIt) {
   Reader reader;
   reader.pilot.put(*stray::find_road("Arch", "E"), 1.5f);

@@ -131,8 +131,24 @@ TEST(Pilot, ASignTellsItsRoadToARobotThatDidNotKnowWhereItWas) {
   ASSERT_EQ(trip.pilot.place().road(), nullptr);
   trip.pilot.learn_road(kFirst);
   ASSERT_EQ(trip.pilot.place().road(), &kFirst);
+  EXPECT_NEAR(trip.pilot.place().spot().along_m, 0.5f, 0.02f) << "signs lie 15 cm behind the line out";
   trip.pilot.learn_road(kThird);
   EXPECT_EQ(trip.pilot.place().road(), &kFirst) << "it knows now";
+}
+
+TEST(Pilot, ARobotThatIsCarriedOutOfACrossingDoesNotCrossWhereItIsSetDown) {
+  Trip trip(2.6);
+  trip.pilot.choose(&kCross, &kThird);
+  trip.drive(0.5);
+  ASSERT_TRUE(trip.pilot.in_crossing());
+  trip.pilot.set_down(0.0f);
+  trip.drive(0.1);   // the mind has not decided yet
+  EXPECT_TRUE(trip.pilot.is_set_down());
+  EXPECT_FALSE(trip.pilot.in_crossing());
+  EXPECT_EQ(trip.last.speed_m_s, 0.0f);
+  trip.pilot.choose(&kMove, &kThird);
+  trip.drive(1.0);
+  EXPECT_GT(trip.last.speed_m_s, 0.1f);
 }
 
 TEST(Pilot, ARobotThatFacesBackInAHallKnowsItsDoors) {
