@@ -87,7 +87,8 @@ class Lookout {
     if (!find_road_) return;
     if (approaches()) tell_arrival(pilot, watch_.sign().landmark, side_from());
     tell_way_back(pilot);
-    if (const MapRoad* road = way_out(); road != nullptr && watch_.moves()) pilot.learn_road(*road);
+    if (!watch_.moves() || pilot.place().road() != nullptr) return;
+    if (const MapRoad* road = way_out()) pilot.learn_road(*road);
   }
   /// Before each tick: writes the facts that the knowledge base has. Others keep their values.
   void write(Facts& facts) noexcept {

@@ -110,7 +110,7 @@ class Pilot {
   /// False: it is in a crossing, on an unknown road, or near a bend and faces neither way.
   [[nodiscard]] bool is_to_face(float& heading_rad) const noexcept {
     if (in_crossing() || place_.road() == nullptr || !(place_.faces_along() || place_.faces_back() || place_.clear_of_bend())) return false;
-    const bool turns_back = way_round() != nullptr || !place_.faces_back();
+    const bool turns_back = way_back(back_) != nullptr || !place_.faces_back();
     heading_rad = wrapped_angle(place_.spot().heading_rad + (turns_back ? kPi : 0.0f));
     return true;
   }
@@ -161,7 +161,7 @@ class Pilot {
  private:
   void begin(const Senses& senses) noexcept {
     suspend();
-    const MapRoad* const back = drives_ && controller_.id() == Id::kTurnRound ? way_round() : nullptr;
+    const MapRoad* const back = drives_ && controller_.id() == Id::kTurnRound ? way_back(back_) : nullptr;
     if (back != nullptr) place_.turn_back(*back);   // whatever it faces: near a bend neither along nor back
     changed_ = follows_ = false;
     running_ = line_;
@@ -291,19 +291,14 @@ class Pilot {
     follows_ = true;
     followed_m_ = place_.travelled_m();
   }
-  /// The road that the robot is on in the other direction, if the leg leads there or has just led there; null: neither.
-  [[nodiscard]] const MapRoad* way_back() const noexcept {
+  /// The road that the robot is on in the other direction, if the leg leads there or has just led there, or if it is `told`; null: neither, or that is
+  /// the road of the leg.
+  [[nodiscard]] const MapRoad* way_back(const MapRoad* told = nullptr) const noexcept {
     if (place_.road() == nullptr || roads_.road() == place_.road()) return nullptr;
-    for (const MapRoad* road : {roads_.road(), roads_.came()}) {   // the leg may lead on already: the sign ahead was read before the robot moved
+    for (const MapRoad* road : {roads_.road(), roads_.came(), told}) {   // the leg may lead on already: the sign ahead was read before the robot moved
       if (road != nullptr && is_way_back(*road, *place_.road())) return road;
     }
     return nullptr;
-  }
-  /// The same for a robot that turns round, which may be told so by no leg.
-  [[nodiscard]] const MapRoad* way_round() const noexcept {
-    if (const MapRoad* by_leg = way_back()) return by_leg;
-    const bool there = back_ != nullptr && place_.road() != nullptr && roads_.road() != place_.road() && is_way_back(*back_, *place_.road());
-    return there ? back_ : nullptr;
   }
   void turn_back_if_leg_does() noexcept {
     const MapRoad* const back = way_back();

@@ -85,21 +85,9 @@ Rows rows_of(const model::Model& model, const program::Program& program, const N
 
 /// The landmarks of all maps as runs of facts: `      {26, 3},`.
 std::string landmark_runs(const model::Model& model, const program::Program& program) {
-  std::unordered_map<std::string_view, std::size_t> facts;
-  const auto cells = program.cells_of(program::CellKind::kFact);
-  for (std::size_t i = 0; i < cells.size(); ++i) facts.emplace(cells[i].name, i);
-  std::set<std::size_t> landmarks;
-  for (const model::Map& map : model.maps) {
-    for (const model::RowId row : map.landmarks) {
-      if (const auto at = facts.find(model[row].name); at != facts.end()) landmarks.insert(at->second);
-    }
-  }
   std::string out;
-  for (auto at = landmarks.begin(); at != landmarks.end();) {
-    const std::size_t first = *at;
-    std::size_t past = first;
-    for (; at != landmarks.end() && *at == past; ++at) ++past;
-    fmt::format_to(Out(out), "      {{{}, {}}},  // from {}\n", first, past - first, cells[first].name);
+  for (const program::CellRun& run : program::landmark_runs(model)) {
+    fmt::format_to(Out(out), "      {{{}, {}}},  // from {}\n", program::index(run.first), run.count, program[run.first].name);
   }
   return out;
 }

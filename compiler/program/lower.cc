@@ -182,6 +182,25 @@ std::vector<CellId> cell_order(const model::Model& model) {
   return order;
 }
 
+std::vector<CellRun> landmark_runs(const model::Model& model) {
+  const std::vector<CellId> order = cell_order(model);
+  std::vector<CellId> facts;
+  for (const model::Map& map : model.maps) {
+    for (const model::RowId landmark : map.landmarks) {
+      const model::CellId cell = model[landmark].cell;
+      if (cell != model::CellId::kNone && model[cell].kind == CellKind::kFact) facts.push_back(order[model::index(cell)]);
+    }
+  }
+  std::sort(facts.begin(), facts.end());
+  std::vector<CellRun> runs;
+  for (const CellId fact : facts) {
+    const std::size_t past = runs.empty() ? 0 : index(runs.back().first) + runs.back().count;
+    if (runs.empty() || index(fact) > past) runs.push_back({fact, 1});
+    else if (index(fact) == past) ++runs.back().count;   // below: a landmark of two maps
+  }
+  return runs;
+}
+
 Program lower(const model::Model& model, const source::Sources& sources) { return Lowering(model, sources).run(); }
 
 }  // namespace kb::program

@@ -185,6 +185,11 @@ struct Thresholds {
 /// By cell of the model: its cell in the program.
 [[nodiscard]] std::vector<CellId> cell_order(const model::Model& model);
 
+/// Cells that stand beside each other.
+struct CellRun { CellId first{}; std::uint32_t count = 0; };
+/// The facts of the landmarks of all maps, ascending, each once. A landmark may have none. O(n log n).
+[[nodiscard]] std::vector<CellRun> landmark_runs(const model::Model& model);
+
 /// Checks what must hold of every program, whoever made it: one sentence for each fault, which is a bug of the compiler.
 [[nodiscard]] std::vector<std::string> verify(const Program& program);
 

@@ -14,16 +14,9 @@ std::vector<std::string> names_of_facts(const program::Program& program) {
   return names;
 }
 
-/// The landmarks among the facts.
-std::vector<mts::FactRun> runs_of(std::vector<program::CellId> landmarks) {
-  std::ranges::sort(landmarks);
+std::vector<mts::FactRun> runs_of(const std::vector<program::CellRun>& cells) {
   std::vector<mts::FactRun> runs;
-  for (const program::CellId landmark : landmarks) {
-    const auto fact = static_cast<std::uint32_t>(landmark);
-    const std::uint32_t past = runs.empty() ? 0 : runs.back().first + runs.back().count;
-    if (runs.empty() || fact > past) runs.push_back({fact, 1});
-    else if (fact == past) ++runs.back().count;   // below: a landmark of two maps
-  }
+  for (const program::CellRun& run : cells) runs.push_back({static_cast<std::uint32_t>(run.first), run.count});
   return runs;
 }
 
@@ -53,13 +46,15 @@ Driver::Driver(const Knowledge& knowledge, const Labyrinth& labyrinth, const mts
 void Driver::read(const TagHeard& tag) {
   sign_ = {.reader = tag.alive};
   if (tag.memory == nullptr) return;
-  memory_ = tag.memory;
-  closed_.clear();
-  cross_by_.clear();
-  for (const Memory::Exit& exit : memory_->exits) {
-    if (exit.closed) add_word(closed_, exit.name);
+  if (tag.memory != memory_) {   // what a tag says is never changed
+    memory_ = tag.memory;
+    closed_.clear();
+    cross_by_.clear();
+    for (const Memory::Exit& exit : memory_->exits) {
+      if (exit.closed) add_word(closed_, exit.name);
+    }
+    for (const std::string& method : memory_->methods) add_word(cross_by_, method);
   }
-  for (const std::string& method : memory_->methods) add_word(cross_by_, method);
   sign_ = {memory_->landmark.c_str(), memory_->exits[tag.arm].name.c_str(), memory_->safe, closed_.c_str(), cross_by_.c_str()};
 }
 

@@ -115,7 +115,7 @@ class Driver {
   Mind mind_;
   mts::Senses senses_;            // as read
   std::shared_ptr<const Memory> memory_;   // of the sign that was read last
-  std::string closed_, cross_by_;          // what the present one says
+  std::string closed_, cross_by_;          // what that says
   mts::Sign sign_;
   std::vector<float> perceived_;  // facts
   std::string memory_text_;

@@ -159,15 +159,15 @@ void find_facts(const model::Model& model, const program::Program& program, Know
   for (std::size_t i = 0; i < program.facts; ++i) {
     const std::string_view name = program.cells[i].name;
     const bool single = std::ranges::any_of(mts::kPerceivedFacts, [&](const char* fact) { return name == fact; });
-    const bool member = std::ranges::any_of(mts::kPerceivedGroups, [&](const char* group) { return name.starts_with(std::string(group) + '.'); });
+    const std::string_view group = name.substr(0, name.find('.'));
+    const bool member = group.size() < name.size() && std::ranges::any_of(mts::kPerceivedGroups, [&](const char* one) { return group == one; });
     if (single || member) out.perceived.push_back(static_cast<program::CellId>(i));
     if (name.starts_with(kCrossBy)) out.methods.push_back(name.substr(kCrossBy.size()));
   }
-  const auto order = program::cell_order(model);
-  for (const model::Map& map : model.maps) {
-    for (const model::RowId row : map.landmarks) out.landmarks.push_back(order[model::index(model[row].cell)]);
+  out.landmarks = program::landmark_runs(model);
+  for (const program::CellRun& run : out.landmarks) {
+    for (std::uint32_t i = 0; i < run.count; ++i) out.perceived.push_back(program::CellId{static_cast<std::uint32_t>(run.first) + i});
   }
-  out.perceived.insert(out.perceived.end(), out.landmarks.begin(), out.landmarks.end());
 }
 
 std::string landmark_in(const model::Model& model, const model::Row& row, std::string_view field) {

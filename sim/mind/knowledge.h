@@ -68,7 +68,7 @@ struct Knowledge {
   const tables::Tables* tables = nullptr;
   const tables::LoadedImage* image = nullptr;   ///< the image of the same, on which a mind runs that is to take another; null: it runs on the tables
   std::vector<program::CellId> perceived;   ///< the facts of the standard library that a driver supplies: see lookout.h
-  std::vector<program::CellId> landmarks;   ///< of all maps; among those
+  std::vector<program::CellRun> landmarks;  ///< of all maps; among those
   std::vector<std::string_view> methods;    ///< by which a crossing can be driven: `mark` for `CrossBy.mark`
   std::vector<Strategy> strategies;   ///< by the program's order of strategies
   std::vector<Leg> legs;

@@ -1,8 +1,5 @@
 #include "sim/mind/map_roads.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "compiler/model/ground.h"
 #include "sim/world/geometry.h"
 
@@ -18,15 +15,6 @@ std::vector<mts::Piece> pieces_of(const Labyrinth& labyrinth, const Arm& arm) {
   std::vector<mts::Piece> pieces;
   for (const model::GroundPiece& piece : model::pieces_of(course)) pieces.push_back({static_cast<float>(piece.heading_rad), static_cast<float>(piece.length_m)});
   return pieces;
-}
-
-/// From an arm to the one beside it that is nearest, up to pi.
-float apart_rad(const Crossing& crossing, const Arm& arm) {
-  double least_rad = kPi;
-  for (const Arm& other : crossing.arms) {
-    if (&other != &arm) least_rad = std::min(least_rad, std::abs(wrap(other.heading_rad - arm.heading_rad)));
-  }
-  return static_cast<float>(least_rad);
 }
 
 }  // namespace
@@ -45,7 +33,7 @@ void MapRoads::add(const Labyrinth& labyrinth, CrossingId crossing, const Arm& a
   ends_.push_back({crossing, &arm});
   const std::vector<mts::Piece>& course = courses_.emplace_back(pieces_of(labyrinth, arm));
   roads_.push_back({from.name.c_str(), arm.name.c_str(), to.name.c_str(), approach.name.c_str(), road.method.c_str(), mts::kInfinity, course.data(),
-                    static_cast<std::uint16_t>(course.size()), apart_rad(from, arm), apart_rad(to, approach)});
+                    static_cast<std::uint16_t>(course.size()), static_cast<float>(from.apart_rad(arm)), static_cast<float>(to.apart_rad(approach))});
 }
 
 const mts::MapRoad* MapRoads::find(std::string_view landmark, std::string_view exit) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "sim/world/geometry.h"
 
@@ -12,6 +13,15 @@ const Arm* Crossing::arm(std::string_view exit) const {
     if (candidate.name == exit) return &candidate;
   }
   return nullptr;
+}
+
+double Crossing::apart_rad(const Arm& arm) const {
+  double least_rad = kPi;
+  const std::size_t count = arms.size(), own = static_cast<std::size_t>(&arm - arms.data());
+  for (const std::size_t beside : {(own + 1) % count, (own + count - 1) % count}) {   // they are in the order of their headings
+    if (beside != own) least_rad = std::min(least_rad, std::abs(wrap(arms[beside].heading_rad - arm.heading_rad)));
+  }
+  return least_rad;
 }
 
 std::vector<Spot> Road::between_stop_lines() const { return part_of(along, begins_m, ends_m); }

@@ -70,6 +70,8 @@ struct Crossing {
   source::Span span;
 
   [[nodiscard]] const Arm* arm(std::string_view exit) const;
+  /// From one of its arms to the one beside it that is nearest, up to pi: none is beside it.
+  [[nodiscard]] double apart_rad(const Arm& arm) const;
 };
 
 /// How a hall is built and furnished, if not like the others. Metres of the floor. Places in it are given from the end that `road`

@@ -129,13 +129,8 @@ bool furnish(Labyrinth& labyrinth, const std::vector<HallBuild>& halls, Diagnost
 }
 
 /// How far out the stop line of an arm lies: clear of the corners with the arms beside it.
-double stop_of(const Crossing& crossing, std::size_t arm, double size) {
-  double apart_rad = kPi;
-  const std::size_t count = crossing.arms.size();
-  for (const std::size_t other : {(arm + 1) % count, (arm + count - 1) % count}) {
-    if (other != arm) apart_rad = std::min(apart_rad, std::abs(wrap(crossing.arms[other].heading_rad - crossing.arms[arm].heading_rad)));
-  }
-  return size * static_cast<double>(mts::stop_line_m(static_cast<float>(apart_rad), kRobot));
+double stop_of(const Crossing& crossing, const Arm& arm, double size) {
+  return size * static_cast<double>(mts::stop_line_m(static_cast<float>(crossing.apart_rad(arm)), kRobot));
 }
 
 /// The scale at which a road has room for its stop lines and what lies between them.
@@ -214,7 +209,9 @@ bool arrange_arms(Labyrinth& labyrinth, Diagnostics& diagnostics) {
                          {arm.name, next.name, crossing.name, fmt::format("{}", std::floor(gap * 180.0 / kPi)), degrees(kLeastGap)});
       good = false;
     }
-    for (std::size_t i = 0; good && i < crossing.arms.size(); ++i) crossing.arms[i].stop_m = stop_of(crossing, i, labyrinth.size);
+    for (Arm& arm : crossing.arms) {
+      if (good) arm.stop_m = stop_of(crossing, arm, labyrinth.size);
+    }
   }
   return good;
 }

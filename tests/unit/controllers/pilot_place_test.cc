@@ -96,9 +96,8 @@ TEST(Pilot, ASignAheadThatIsReadOnTheSpotDoesNotHideThatItHasComeAbout) {
   trip.pilot.choose(&kMove, &kFirst);
   trip.pilot.put(kFirst, 1.5f);
   trip.drive(0.5);
-  static constexpr Piece west[] = {{kPi, 3.0f}};
-  constexpr MapRoad back = {"Arch", "W", "Dock", "E", "azimuth", kInfinity, west, 1}, on = {"Dock", "N", "Hill", "S", "azimuth", kInfinity, kStraightNorth, 1};
-  trip.pilot.choose(&kAbout, &back);
+  constexpr MapRoad on = {"Dock", "N", "Hill", "S", "azimuth", kInfinity, kStraightNorth, 1};
+  trip.pilot.choose(&kAbout, &kFirstBack);
   trip.drive(4.0);
   trip.pilot.choose(&kAbout, &on);   // the sign of Dock was read, and the leg leads on
   trip.drive(0.1);
@@ -109,11 +108,9 @@ TEST(Pilot, ASignAheadThatIsReadOnTheSpotDoesNotHideThatItHasComeAbout) {
 }
 
 TEST(Pilot, WhoTurnsRoundThoughNoLegSaysSoIsOnTheWayBack) {
-  static constexpr Piece west[] = {{kPi, 3.0f}};
-  constexpr MapRoad back = {"Arch", "W", "Dock", "E", "azimuth", kInfinity, west, 1};
   Trip trip(1.5);
   trip.pilot.put(kFirst, 1.5f);
-  trip.pilot.can_turn_back(&back);
+  trip.pilot.can_turn_back(&kFirstBack);
   trip.pilot.choose(&kAbout);
   trip.drive(4.0);
   trip.pilot.choose(&kMove);

@@ -15,6 +15,8 @@ inline constexpr ControlLine kStraight = {"turn_by_compass", kForward, 1};
 inline constexpr ControlLine kMove = {"hold_heading", kSlow, 1}, kCross = {"turn_by_compass", kLeft, 1}, kAvoid = {"keep_wall", kAside, 2}, kStop = {"stand", nullptr, 0}, kAbout = {"turn_round", nullptr, 0};
 inline constexpr Piece kEast[] = {{0.0f, 3.0f}}, kBend[] = {{0.0f, 3.0f}, {0.5f * kPi, 4.0f}}, kBendBack[] = {{-0.5f * kPi, 4.0f}, {kPi, 3.0f}};
 inline constexpr MapRoad kFirst = {"Dock", "E", "Arch", "W", "azimuth", kInfinity, kEast, 1};
+inline constexpr Piece kWest[] = {{kPi, 3.0f}};
+inline constexpr MapRoad kFirstBack = {"Arch", "W", "Dock", "E", "azimuth", kInfinity, kWest, 1};
 inline constexpr Piece kStraightNorth[] = {{0.5f * kPi, 3.0f}};
 inline constexpr MapRoad kThird = {"Arch", "N", "Mill", "S", "azimuth", kInfinity, kStraightNorth, 1};
 inline constexpr MapRoad kElsewhere = {"Hill", "S", "Arch", "N", "azimuth", kInfinity, kBendBack, 1};

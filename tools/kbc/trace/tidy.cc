@@ -1,7 +1,6 @@
 #include "tools/kbc/trace/tidy.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <deque>
 #include <utility>
@@ -54,9 +53,7 @@ void read_csv(const Header& header, Row& row) {
     row.whole = row.whole && field.fault == Field::Fault::kNone;
     if (!header.timed || count != header.time) continue;
     double time_s = 0.0;
-    const std::string_view number = source::without_plus(field.text);
-    const auto read = std::from_chars(number.data(), number.data() + number.size(), time_s);
-    if (read.ec == std::errc() && read.ptr == number.data() + number.size()) row.t_us = microseconds(time_s);
+    if (source::read_number(source::without_plus(field.text), time_s)) row.t_us = microseconds(time_s);
     row.t_begin = field.begin, row.t_end = field.end;
   }
   row.whole = row.whole && count == header.columns;

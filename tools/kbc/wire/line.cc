@@ -8,6 +8,7 @@
 
 #include "compiler/program/text.h"
 #include "compiler/source/utf8.h"
+#include "sim/world/geometry.h"
 #include "tools/kbc/wire/fields.h"
 
 namespace kb::wire {
@@ -17,7 +18,6 @@ using program::append_json;
 using program::append_number;
 
 constexpr double kLatest = 1e11;                 // s: some 3,000 years
-constexpr double kPi = 3.14159265358979323846;
 constexpr float kFullTurn = 6.283186f;           // rad
 constexpr Range kDark{-0.5, 1.5};                // a sensor may be slightly out of range
 constexpr Range kRow{-1.0, 1.0};                 // m: a host that sends millimetres gets a message
@@ -67,7 +67,7 @@ void read_compass(Reading& reading, const Json& json, Line& line) {
   line.compass_at = json.span;
   if (std::abs(heading_rad) <= kFullTurn) return;
   line.turns_rad = heading_rad;
-  heading_rad = static_cast<float>(std::remainder(static_cast<double>(heading_rad), 2.0 * kPi));
+  heading_rad = static_cast<float>(std::remainder(static_cast<double>(heading_rad), 2.0 * sim::kPi));
 }
 
 /// Five darknesses, or the readings of a sensor that measures where the line is.
