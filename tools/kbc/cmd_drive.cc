@@ -58,7 +58,7 @@ class Conversation {
       if (came == Came::kEnd || came == Came::kFailed) return session_.exit_code();
       ++number_;
       if (came == Came::kLine && line.find_first_not_of(" \t\r") == std::string::npos) continue;   // nobody has said anything
-      const std::string answer = came == Came::kTooLong ? too_long() : exchange_.answer(line, number_);
+      const std::string answer = exchange_.answer(line, number_);
       for (const auto* said : {&exchange_.mistake(), &exchange_.warning()}) {
         if (*said) tell(**said, line);
       }
@@ -83,10 +83,6 @@ class Conversation {
     Came went = channel_.write(answer, waits_ms());
     for (; went == Came::kLate; went = channel_.write_on(waits_ms())) orders_->wait(stuck_us += kListens_ms * 1000);
     return went;
-  }
-  std::string too_long() {
-    const wire::Mistake mistake{Kind::kWireLineLong, {fmt::format("{}", wire::kLongestLine), {}, {}}, {}, {source::FileId::kNone, 0, 1}};
-    return exchange_.refuse(mistake, number_);
   }
   void tell(const wire::Mistake& mistake, const std::string& line) {
     if (messages_.errors() + messages_.warnings() > diagnostics::Diagnostics::kMaxErrors) return;   // there are messages enough, and each costs memory

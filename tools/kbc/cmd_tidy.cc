@@ -48,9 +48,14 @@ int run(const TidyCommand& options, Session& session) {
     session.report(Kind::kFactsNoHeader, {options.file});
     return kErrors;
   }
+  if (tidied->needed) {
+    session.report(Kind::kTidyNeeded, {options.file, std::to_string(*tidied->needed)});
+    return kErrors;
+  }
   for (const trace::TidyChange& change : tidied->changes) session.report(Kind::kTidyChanged, {change.what, lines_text(change)});
   const int code = session.deliver(options.output, tidied->bytes);
-  if (code == kClean) session.remark(fmt::format("{} of {}{}", tidied->kept, diagnostics::counted(tidied->rows, "row"), tidied->changes.empty() ? ", as they were" : ""));
+  if (code == kClean) session.remark(fmt::format("{} of {}{}{}", tidied->kept, diagnostics::counted(tidied->rows, "row"), tidied->changes.empty() ? ", as they were" : "",
+                                            tidied->timed ? "" : " (without a column `t`, so there is no clock to mend)"));
   return code;
 }
 

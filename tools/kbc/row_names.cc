@@ -25,6 +25,7 @@ std::pair<std::string, std::string> file_and_name(const std::string& option) {
 std::string_view refused_name(std::string_view name) {
   if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain)) return "letters, digits, `_`, `-` and `.` can";
   if (std::find(kMissing.begin(), kMissing.end(), name) != kMissing.end()) return "readers of tables take it for a value that is missing";
+  if (name == "all") return "tables have a row of this name, for all runs together";
   return {};
 }
 

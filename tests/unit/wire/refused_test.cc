@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/unit/wire/cab.h"
+#include "tools/kbc/wire/fields.h"
 #include "tools/kbc/wire/named.h"
 
 namespace kb::wire {
@@ -22,9 +23,20 @@ TEST(RefusedLine, NamesItsButtonsWhateverIsWrongWithIt) {
   EXPECT_EQ(named_in(R"({"t":1,"buttons":["Abort)"), Names{}) << "cut off in the name";
   EXPECT_EQ(named_in(R"({"t":1,"buttons":["Abort","Resu)"), Names{"Abort"});
   EXPECT_EQ(named_in(R"({"facts":{"Pause":-1,"Abort":1},"t":)"), Names{"Abort"});
+  EXPECT_EQ(named_in(R"({"facts":{"Fire":false,"Abort":true},"t":NaN})"), (Names{"Abort"}));
+  EXPECT_EQ(named_in(R"({"facts":{"Odd":{"a":[1,2],"b":"}"},"Abort":1},"t":NaN})"), (Names{"Abort"})) << "behind a value that has parts";
   EXPECT_EQ(named_in(R"({"facts":{"Abort":)"), Names{});
   EXPECT_EQ(named_in(R"([{"buttons":["Abort"]}])"), Names{}) << "JSON that has no field of this name";
   for (const char* text : {"", "{", "[]", "7", R"("buttons")", R"({"t":1}})", R"({"buttons":)"}) EXPECT_EQ(named_in(text), Names{}) << text;
+}
+
+TEST(RefusedLine, AbortInTheBeginningOfALineThatIsTooLongIsHeard) {
+  const std::string odd = R"(,"buttons":["Abort"],"load":")" + std::string(kLongestLine, 'x');   // what `LineChannel` leaves of it
+  Cab cab;
+  set_off(cab);
+  EXPECT_TRUE(cab.say(1.0, odd).contains("error"));
+  for (int i = 1; i < 25; ++i) static_cast<void>(cab.say(1.0 + 0.02 * i));
+  EXPECT_EQ(cab.say(1.5)["mission"], false);
 }
 
 TEST(RefusedLine, AbortOfALineThatCannotBeUsedEndsTheMission) {

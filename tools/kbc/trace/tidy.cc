@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <utility>
 
 #include "compiler/program/text.h"
@@ -16,13 +15,17 @@ namespace kb::trace {
 namespace {
 
 struct Row {
-  std::string_view text;
-  std::string before;                   // the comments and blank lines before it
+  std::string_view text, end;           // without its line end, and that
+  std::string_view before;              // the comments and blank lines before it
   std::uint64_t line = 0;
   std::optional<std::int64_t> t_us;
   std::size_t t_begin = 0, t_end = 0;   // the bytes of the time
   bool whole = true;                    // with a line end, and all its fields
+  bool kept = true;
 };
+
+/// Spreadsheets write it at the beginning of UTF-8.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::optional<std::int64_t> microseconds(double time_s) {
   return std::abs(time_s) <= kMaxTimeS ? std::optional<std::int64_t>(std::llround(time_s * 1e6)) : std::nullopt;
@@ -76,41 +79,43 @@ class Tidier {
  public:
   explicit Tidier(const TidyOptions& options) : options_(options) {}
 
+  /// The bytes must outlive it.
   bool read(std::string_view bytes) {
-    MemoryStream stream(bytes);
-    LineReader lines(stream);
-    std::string before;
-    while (const auto line = lines.next()) {
-      if (line->too_long) return false;
-      const std::string_view text = keep(line->text);
+    std::size_t before = 0;   // where the comments begin that stand before the next row
+    std::uint64_t number = 0;
+    for (std::size_t at = bytes.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0; at < bytes.size();) {
+      const std::size_t begin = at, feed = std::min(bytes.find('\n', at), bytes.size());
+      at = std::min(feed + 1, bytes.size());
+      const std::size_t size = feed - begin - (feed > begin && bytes[feed - 1] == '\r' ? 1 : 0);
+      const std::string_view text = bytes.substr(begin, size), end = bytes.substr(begin + size, at - begin - size);
+      if (number++ == 0 && end.size() == 2) line_end_ = end;
       const std::size_t first = text.find_first_not_of(" \t");
+      if (size > LineReader::kMaxLineBytes) return false;
       if (first == std::string_view::npos || text[first] == '#') {
-        before.append(text) += '\n';
-      } else if (!begun_ && text[first] != '{') {
-        head_ = std::move(before) + std::string(text) + "\n";
+        if (!begun_ && first != std::string_view::npos) read_option_comment(text, said_);
+        continue;
+      }
+      if (!begun_ && text[first] != '{') {
+        head_ = bytes.substr(0, at);
         header_ = read_header(text);
-        begun_ = true;
-        before.clear();
       } else {
         json_ = json_ || !begun_;
-        begun_ = true;
-        Row row{text, std::move(before), line->number, std::nullopt, 0, 0, line->ended};
-        before.clear();
+        Row row{text, end, bytes.substr(before, begin - before), number, std::nullopt, 0, 0, feed < bytes.size()};
         if (json_) read_json(row);
         else read_csv(header_, row);
-        rows_.push_back(std::move(row));
+        rows_.push_back(row);
       }
+      begun_ = true;
+      before = at;
     }
-    tail_ = std::move(before);
+    tail_ = bytes.substr(before);
     out_.rows = rows_.size();
+    out_.timed = json_ || header_.timed;
     return begun_;
   }
 
   Tidied mend() {
-    if (options_.drop_last && !rows_.empty() && !rows_.back().whole) {
-      note("half written, at the end: left out", rows_.back().line);
-      rows_.pop_back();
-    }
+    if (options_.drop_last && !rows_.empty() && !rows_.back().whole) drop(rows_.back(), "half written, at the end: left out");
     if (options_.drop_duplicates) drop_duplicates();
     using Clock = TidyOptions::Clock;
     if (options_.clock == Clock::kDrop) drop_earlier();
@@ -120,6 +125,8 @@ class Tidier {
     bool timed = false;
     for (const Row& row : rows_) {
       out_.bytes += row.before;
+      if (!row.kept) continue;
+      ++out_.kept;
       if (row.t_us && options_.clock == Clock::kShift) {
         if (timed && goes_back(*row.t_us + shift_us, before_us)) shift_us = before_us + std::max<std::int64_t>(step_us, json_ ? 1 : 0) - *row.t_us;
         const std::int64_t now_us = *row.t_us + shift_us;
@@ -130,13 +137,10 @@ class Tidier {
       write(row, shift_us);
     }
     out_.bytes += tail_;
-    out_.kept = rows_.size();
     return std::move(out_);
   }
 
  private:
-  /// `text` is the reader's, and gone with the next line.
-  std::string_view keep(std::string_view text) { return texts_.emplace_back(text); }
   [[nodiscard]] bool goes_back(std::int64_t t_us, std::int64_t before_us) const { return json_ ? t_us <= before_us : t_us < before_us; }
 
   void note(std::string_view what, std::uint64_t line) {
@@ -146,33 +150,41 @@ class Tidier {
     change->lines.push_back(line);
   }
 
+  void drop(Row& row, std::string_view why) {
+    note(why, row.line);
+    row.kept = false;
+  }
+  /// A row that is left out for its time, or put elsewhere, changes what the empty fields of others mean.
+  void leaves(const Row& row) {
+    if (said_.steady.value_or(false) && !out_.needed) out_.needed = row.line;
+  }
+
   void drop_duplicates() {
-    std::vector<Row> kept;
+    const Row* last = nullptr;
     for (Row& row : rows_) {
-      if (kept.empty() || kept.back().text != row.text) kept.push_back(std::move(row));
-      else note("the same as the row before: left out", row.line);
+      if (last != nullptr && last->text == row.text) drop(row, "the same as the row before: left out");
+      else last = &row;
     }
-    rows_ = std::move(kept);
   }
 
   void drop_earlier() {
-    std::vector<Row> kept;
     std::optional<std::int64_t> before_us;
     for (Row& row : rows_) {
-      const bool earlier = row.t_us && before_us && goes_back(*row.t_us, *before_us);
-      if (earlier) note("earlier than a row before it: left out", row.line);
-      if (earlier) continue;
-      if (row.t_us) before_us = row.t_us;
-      kept.push_back(std::move(row));
+      if (!row.kept || !row.t_us) continue;
+      if (before_us && goes_back(*row.t_us, *before_us)) {
+        leaves(row);
+        drop(row, "earlier than a row before it: left out");
+      } else {
+        before_us = row.t_us;
+      }
     }
-    rows_ = std::move(kept);
   }
 
   void sort() {
     std::optional<std::int64_t> before_us;
     for (Row& row : rows_) {
-      if (!row.t_us) row.t_us = before_us;   // it stays behind the row that it stands behind
-      else if (before_us && *row.t_us < *before_us) note("earlier than a row before it: put where its time belongs", row.line);
+      if (!row.kept || !row.t_us) row.t_us = before_us;   // it stays behind the row that it stands behind
+      else if (before_us && *row.t_us < *before_us) leaves(row), note("earlier than a row before it: put where its time belongs", row.line);
       before_us = std::max(before_us, row.t_us);
     }
     std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.t_us < b.t_us; });
@@ -188,14 +200,15 @@ class Tidier {
     } else {
       out_.bytes += row.text;
     }
-    out_.bytes += '\n';
+    out_.bytes += row.end.empty() ? line_end_ : row.end;
   }
 
   TidyOptions options_;
   Tidied out_;
-  std::string head_, tail_;
+  std::string_view head_, tail_;
+  std::string_view line_end_ = "\n";
+  FactsOptions said_;
   Header header_;
-  std::deque<std::string> texts_;
   std::vector<Row> rows_;
   bool json_ = false, begun_ = false;
 };

@@ -28,12 +28,14 @@ struct TidyChange {
 };
 
 struct Tidied {
-  std::string bytes;                     ///< the recording as it is now; its last line ends
+  std::string bytes;                     ///< the recording as it is now; its last row ends
   std::vector<TidyChange> changes;
   std::uint64_t rows = 0, kept = 0;
+  bool timed = false;                    ///< it has times
+  std::optional<std::uint64_t> needed;   ///< the first row that was left out or moved though empty fields of others mean what it says (`# empty: as before`)
 };
 
-/// Mends a recording. Comments stay before the row that they stand before. A row that is wrong in another way, or has no time, stays as it is.
+/// Mends a recording. Comments stay before the row that they stand before, also if that is left out; line ends stay what they are. A row that is wrong in another way, or has no time, stays as it is.
 /// In JSON lines a time must grow, in CSV it must not go back, as their readers want it. Nothing if there is no row to look at:
 /// neither a header nor an object. O(bytes), and O(rows log rows) to sort.
 [[nodiscard]] std::optional<Tidied> tidied(std::string_view bytes, const TidyOptions& options);

@@ -73,15 +73,8 @@ void Exchange::hear_stops(std::string_view text) {
   }
 }
 
-std::string Exchange::refuse(const Mistake& mistake, std::uint64_t number) {
-  line_.reset();
-  warning_.reset();
-  text_.clear();
-  mistake_ = mistake;
-  return print_answer(mistake, number, actions_);
-}
-
 std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
+  if (text.size() > kLongestLine) return Mistake{Kind::kWireLineLong, {std::to_string(kLongestLine), {}, {}}, {}, {source::FileId::kNone, 0, 1}};
   auto read = read_line(text);
   if (auto* mistake = std::get_if<Mistake>(&read)) return std::move(*mistake);
   Line& line = std::get<Line>(read);

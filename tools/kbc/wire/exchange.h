@@ -69,11 +69,9 @@ class Exchange {
   /// All must outlive it. Only the body, the range finders and the methods of crossings of `robot` are used.
   Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options);
 
-  /// The answer to one line, without line break. `number`: the number of the line, from 1. Never throws because of its contents. See
-  /// note [a line that comes twice].
+  /// The answer to one line, without line break. `number`: the number of the line, from 1. Never throws because of its contents. A line longer
+  /// than `kLongestLine` is a mistake, so its beginning is enough. See note [a line that comes twice].
   [[nodiscard]] std::string answer(std::string_view text, std::uint64_t number);
-  /// The answer to a line that is not even looked at, because of a mistake.
-  [[nodiscard]] std::string refuse(const Mistake& mistake, std::uint64_t number);
   /// Takes another knowledge base from the next tick on: see sim::can_take, which must hold for it and the first one; see
   /// note [another mind between two lines]. It must outlive the exchange, and so must the first one; those between need not.
   void take(const sim::Knowledge& next);

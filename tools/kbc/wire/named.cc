@@ -1,5 +1,6 @@
 #include "tools/kbc/wire/named.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "tools/kbc/json/json.h"
@@ -53,13 +54,20 @@ class Words {
     rest_.remove_prefix(end + 1);
     return true;
   }
-  /// Passes over a value up to the next comma. Whether it is a number above 0.
-  bool above_0() {
-    const std::size_t begin = rest_.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos) return false;
-    double number = 0.0;
-    std::from_chars(rest_.data() + begin, rest_.data() + rest_.size(), number);
-    rest_.remove_prefix(rest_.find_first_of(",}") == std::string_view::npos ? rest_.size() : rest_.find_first_of(",}"));
+  /// Passes over a value, with all that it has inside. Whether it is `true` or a number above 0.
+  bool holds() {
+    const std::size_t begin = std::min(rest_.find_first_not_of(" \t\r"), rest_.size());
+    rest_.remove_prefix(begin);
+    double number = rest_.starts_with("true") ? 1.0 : 0.0;
+    std::from_chars(rest_.data(), rest_.data() + rest_.size(), number);
+    std::size_t end = 0, open = 0;
+    for (bool quoted = false; end < rest_.size() && (open > 0 || quoted || (rest_[end] != ',' && rest_[end] != '}')); ++end) {
+      if (rest_[end] == '"') quoted = !quoted;
+      if (quoted) continue;
+      if (rest_[end] == '{' || rest_[end] == '[') ++open;
+      if ((rest_[end] == '}' || rest_[end] == ']') && open > 0) --open;
+    }
+    rest_.remove_prefix(end);
     return number > 0.0;
   }
 
@@ -88,7 +96,7 @@ std::vector<std::string> named_in(std::string_view text) {
   }
   for (Words words(text); words.enter("facts", '{');) {
     while (words.string(name) && words.skip(':')) {
-      if (words.above_0()) names.push_back(name);
+      if (words.holds()) names.push_back(name);
       words.skip(',');
     }
   }

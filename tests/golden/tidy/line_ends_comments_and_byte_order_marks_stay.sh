@@ -1,0 +1,1 @@
+# RUN: printf '\357\273\277t,Wall\r\n0,0\r\n# of the row that goes\r\n-1,1\r\n0.1,1\r\n0.2,' > %t/excel.csv; kbc tidy %t/excel.csv -o %t/whole.csv; od -c %t/whole.csv | head -4; printf 't,Wall\r\n0,0\r\n' > %t/crlf.csv; kbc tidy %t/crlf.csv | cmp - %t/crlf.csv && echo the same
