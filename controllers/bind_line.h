@@ -25,13 +25,21 @@ inline constexpr const char* kRulesOfHost = "follow_rules";
   return same_text(word, "half_right") || same_text(word, "sharp_right") ? "right" : word;
 }
 
-/// Sets a parameter of a chosen controller to what a line says, in units of the robot. `as`: the robot's size; `body`: the same of size 1. A value that
+/// What a value of the robot is in the scale of the small one. A line is written for a quick robot. One that is slow (see note [slow wheels take longer] in
+/// similarity.h) takes its times, and what hangs on them, as long again; but where a line asks for less speed than the preset, it means that speed.
+[[nodiscard]] inline float small_value(float number, const Parameter& parameter, const Similarity& as) noexcept {
+  const float quick = as.of_size().in(number, parameter.unit);
+  const bool speed = same_text(parameter.unit, "m/s") || same_text(parameter.unit, "deg/s");
+  return speed ? greatest(quick, least(as.in(number, parameter.unit), parameter.preset)) : quick;
+}
+
+/// Sets a parameter of a chosen controller to what a line says, in units of the robot. `as`: the robot's; `body`: as in its scale. A value that
 /// bodies of this size may have, but not this one, as it is slower or broader, becomes the nearest that it can.
 [[nodiscard]] inline Setting set_argument(AnyController& controller, const ControlArgument& argument, const Similarity& as, const Body& body) noexcept {
   if (argument.word[0] != '\0') return controller.set_word(argument.name, main_turn(argument.word));
   const Parameter* parameter = find_parameter(controller.id(), argument.name);
   if (parameter == nullptr) return Setting::kUnknown;
-  const float value = as.in(argument.number, parameter->unit);
+  const float value = small_value(argument.number, *parameter, as);
   const float rounded = 1e-6f * greatest(magnitude(parameter->low), magnitude(parameter->high));   // by the conversion of sizes
   const bool possible = value >= parameter->low - rounded && value <= greatest(parameter->high, highest(*parameter, body)) + rounded;
   if (!possible || (argument.unit[0] != '\0' && !same_text(argument.unit, parameter->unit)) || words_of(parameter->values).count > 0) return Setting::kOutside;

@@ -21,7 +21,8 @@ struct Body {
   float radius_m = 0.12f;
   float wheel_base_m = 0.20f;             ///< from wheel to wheel
   float top_speed_m_s = 0.6f;             ///< of a wheel; also the fastest that a control line may ask for
-  float top_acceleration_m_s2 = 1.5f;     ///< of a wheel, also when it brakes
+  float top_acceleration_m_s2 = 1.5f;     ///< of a wheel, also when it brakes; below 1 the robot is driven more slowly: see similarity.h
+  float top_turn_rad_s = 3.0f;            ///< of the body; the same below 1
   float line_ahead_m = 0.09f;             ///< from the centre to the row of line sensors
   float line_span_m = 0.08f;              ///< from the first to the last of them
   bool has_range_finders = true;          ///< false: only its bumper stops it. A robot that has them does not drive while all are silent

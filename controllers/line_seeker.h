@@ -16,7 +16,10 @@ class LineSeeker {
   /// A controller begins to drive.
   constexpr void begin(ControllerId id) noexcept {
     const bool rounds = id == ControllerId::kRoundObstacle, stands = id == ControllerId::kStand || id == ControllerId::kTurnRound || id == ControllerId::kLookRound;
-    if (rounds && !rounds_) rounds_ = true, left_line_ = drove_ == ControllerId::kFollowLine;
+    if (rounds && !rounds_) {
+      rounds_ = true;
+      left_line_ = drove_ == ControllerId::kFollowLine;
+    }
     if (rounds || stands) return;
     rounds_ = false;
     drove_ = id;

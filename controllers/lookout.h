@@ -185,7 +185,8 @@ class Lookout {
       put(facts, written_, nothing);
     }
     put(facts, landmark, watch_.landmark_certainty());
-    written_ = landmark, nothing_ = nothing;
+    written_ = landmark;
+    nothing_ = nothing;
     put(facts, singles_[kSafe], approaches() ? RoadWatch::sure(sign.safe) : 0.0f);
     const char* const in = side_from();
     write_group(facts, kIn, [&](const char* side) { return in[0] == '\0' ? 0.0f : RoadWatch::sure(same_text(side, in)); });
@@ -198,7 +199,8 @@ class Lookout {
 
   void tell_arrival(Pilot& pilot, const char* landmark, const char* side) noexcept {
     if (landmark == to_ && side == from_) return;
-    to_ = landmark, from_ = side;
+    to_ = landmark;
+    from_ = side;
     pilot.arrives_from(side[0] == '\0' ? nullptr : find_road_(landmark, side));
   }
   void tell_way_back(Pilot& pilot) noexcept {
@@ -261,7 +263,9 @@ class Lookout {
   [[nodiscard]] static bool compass_point(const char* text, float& direction_rad) noexcept {
     constexpr const char* kPoints[] = {"E", "NE", "N", "NW", "W", "SW", "S", "SE"};
     for (std::size_t i = 0; i < 8; ++i) {
-      if (same_text(kPoints[i], text)) return direction_rad = wrapped_angle(static_cast<float>(i) * 0.25f * kPi), true;
+      if (!same_text(kPoints[i], text)) continue;
+      direction_rad = wrapped_angle(static_cast<float>(i) * 0.25f * kPi);
+      return true;
     }
     return false;
   }

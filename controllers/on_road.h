@@ -58,7 +58,8 @@ class OnRoad {
   /// It is on `road`, somewhere: on the way round something it has left the crossing that it entered last.
   constexpr void enter_aside(const MapRoad& road) noexcept {
     road_ = &road;
-    x_m_ = middle_x_m_, y_m_ = middle_y_m_;
+    x_m_ = middle_x_m_;
+    y_m_ = middle_y_m_;
     const float dx = x_m() - x_m_, dy = y_m() - y_m_;
     entered_m_ = square_root(dx * dx + dy * dy);
     turned_m_ = travelled_m();
@@ -67,7 +68,8 @@ class OnRoad {
   constexpr void put(const MapRoad& road, float along_m) noexcept {
     road_ = &road;
     const Door way = way_between(road, 0.0f, along_m);
-    x_m_ = x_m() - way.x_m, y_m_ = y_m() - way.y_m;
+    x_m_ = x_m() - way.x_m;
+    y_m_ = y_m() - way.y_m;
     entered_m_ = along_m;
     turned_m_ = travelled_m();
   }
@@ -82,7 +84,8 @@ class OnRoad {
     const Door whole = way_between(*road_, 0.0f, length);
     entered_m_ = length - spot().along_m;
     turned_m_ = travelled_m();
-    x_m_ += whole.x_m, y_m_ += whole.y_m;
+    x_m_ += whole.x_m;
+    y_m_ += whole.y_m;
     road_ = &back;
   }
   constexpr void step(const Senses& senses, float dt_s) noexcept {
@@ -108,7 +111,8 @@ class OnRoad {
     const float off_m = facing.left_m - body_.size * seen_m;   // how far the road lies to the left of where it was reckoned
     if (magnitude(off_m) > kLargestShift_m * body_.size + kDrift * here.along_m) return;
     const float shift_m = off_m * (dt_s / (kShiftTau_s + dt_s));
-    x_m_ -= shift_m * sine(facing.heading_rad), y_m_ += shift_m * cosine(facing.heading_rad);
+    x_m_ -= shift_m * sine(facing.heading_rad);
+    y_m_ += shift_m * cosine(facing.heading_rad);
   }
 
   /// The same when the robot crosses the road's line, on the way round something or in search of the line: a robot that was pushed aside learns
@@ -124,7 +128,8 @@ class OnRoad {
     const float x_m = ahead_m * ux - left_m * uy - here.x_m, y_m = ahead_m * uy + left_m * ux - here.y_m;   // from the road to the paint
     const float off_m = y_m * cosine(here.heading_rad) - x_m * sine(here.heading_rad);
     if (magnitude(off_m) > kLargestShift_m * size + kDrift * here.along_m) return false;
-    x_m_ -= off_m * sine(here.heading_rad), y_m_ += off_m * cosine(here.heading_rad);
+    x_m_ -= off_m * sine(here.heading_rad);
+    y_m_ += off_m * cosine(here.heading_rad);
     return magnitude(off_m) > kStillBeside_m * size;
   }
   [[nodiscard]] constexpr bool sees_line(const Senses& senses) const noexcept { return look_at_line(senses, small_).seen; }
@@ -186,7 +191,8 @@ class OnRoad {
         const float past_m = i + 1 == road_->pieces ? greatest(ahead_m - piece.length_m, 0.0f) : 0.0f;
         best = {passed_m + along_m, past_m, dy * ux - dx * uy, off_x_m, off_y_m, piece.heading_rad};
       }
-      corner_x_m += piece.length_m * ux, corner_y_m += piece.length_m * uy;
+      corner_x_m += piece.length_m * ux;
+      corner_y_m += piece.length_m * uy;
       passed_m += piece.length_m;
     }
     return best;
@@ -206,7 +212,10 @@ class OnRoad {
     const bool beside = back != Back::kNever && magnitude(here.left_m) > kBeside_m * size;
     Task task = task_along(*road_, body_, driven_m);
     if (task.in_hall) {
-      for (Door* door : {&task.in, &task.out}) door->x_m += here.x_m, door->y_m += here.y_m;
+      for (Door* door : {&task.in, &task.out}) {
+        door->x_m += here.x_m;
+        door->y_m += here.y_m;
+      }
     }
     if (!beside && back != Back::kToLine) return task;
     task.pieces = 0;
@@ -257,7 +266,8 @@ class OnRoad {
         least_rad = off_rad;
         best = {piece.heading_rad, ux * from_y_m - uy * from_x_m};
       }
-      from_x_m -= piece.length_m * ux, from_y_m -= piece.length_m * uy;
+      from_x_m -= piece.length_m * ux;
+      from_y_m -= piece.length_m * uy;
       passed_m += piece.length_m;
     }
     return best;

@@ -40,7 +40,7 @@ class Pilot {
 
  public:
   /// `body`: the robot's own, in its own metres, whatever its size. `host`: see AnyController::choose.
-  explicit Pilot(const Body& body = {}, const Host& host = {}) noexcept : as_(body.size), body_(as_.in(body)), host_(host), place_(body) {}
+  explicit Pilot(const Body& body = {}, const Host& host = {}) noexcept : as_(body), body_(as_.in(body)), host_(host), place_(body) {}
 
   /// Whether it can drive by this line. kUnknown: there is no such controller, or it has no such parameter; kOutside: no body of this size can
   /// have that value, the word is none of the parameter's, or the unit is another. To be asked of each strategy before the robot drives.
@@ -54,7 +54,10 @@ class Pilot {
   /// and `drives` says so. `road`: of the present leg; null if unknown. `limit_m_s`: besides the limits of the roads, for instance what
   /// `speed_limit_m_per_s(mind)` says, which knows the lowest of all roads while none is known; NaN and below 0 are 0.
   void choose(const ControlLine* line, const MapRoad* road = nullptr, float limit_m_s = kInfinity) noexcept {
-    if (road != roads_.road()) suspended_line_ = nullptr, changed_ = true;
+    if (road != roads_.road()) {
+      suspended_line_ = nullptr;
+      changed_ = true;
+    }
     roads_.follow(road);
     line_ = line;
     limit_m_s_ = limit_m_s > 0.0f ? limit_m_s : 0.0f;
@@ -72,7 +75,11 @@ class Pilot {
     else if (found || learnt_ || knows_no_more()) start(steady);
     learnt_ = false;
     if (follows_ && place_.travelled_m() - followed_m_ > kForgets_m * size()) suspended_line_ = nullptr;
-    if (follows_) came_rad_ = place_.heading_rad(), came_m_ = place_.travelled_m(), beside_m_ = greatest(beside_m_ - place_.way_m(), 0.0f);
+    if (follows_) {
+      came_rad_ = place_.heading_rad();
+      came_m_ = place_.travelled_m();
+      beside_m_ = greatest(beside_m_ - place_.way_m(), 0.0f);
+    }
     if (suspended_line_ != nullptr) {
       Senses reckons = steady;
       reckons.line_known = false;
@@ -260,7 +267,10 @@ class Pilot {
       if (fits(heading_rad)) return {heading_rad, true, line_out_m(*behind_, body)};
     }
     Arrival unknown = arrival_by(nullptr, body);
-    if (senses.heading_known && entered_m_ - came_m_ < kForgets_m * size()) unknown.heading_rad = came_rad_, unknown.heading_known = true;
+    if (senses.heading_known && entered_m_ - came_m_ < kForgets_m * size()) {
+      unknown.heading_rad = came_rad_;
+      unknown.heading_known = true;
+    }
     return unknown;
   }
   /// To face back along the road, or along it if the robot faces back already; near a bend, and if the line gives another angle, by the angle.

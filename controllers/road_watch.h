@@ -35,7 +35,7 @@ class RoadWatch {
   enum class At : std::uint8_t { kNowhere, kApproach, kCrossing, kLeaving };
 
   /// `body`: the pilot's. `notices_carried`: the rules want to know whether the robot was carried.
-  explicit RoadWatch(const Body& body, bool notices_carried) noexcept : as_(body.size), body_(as_.in(body)), line_(body_), notices_carried_(notices_carried) {}
+  explicit RoadWatch(const Body& body, bool notices_carried) noexcept : as_(body), body_(as_.in(body)), line_(body_), notices_carried_(notices_carried) {}
   /// Whether the robot is never carried between two missions: then it keeps its place.
   void keep_place(bool keeps) noexcept { keeps_place_ = keeps; }
 
@@ -234,7 +234,7 @@ class RoadWatch {
     else if (leaves_) beside_m_ = 0.0f;   // it begins in the middle of another road
     if (leaves_ && at_ == At::kCrossing) {
       at_ = At::kLeaving;
-      sign_.exit = "", sign_.exit_rad_known = false;   // it was read on the way in
+      sign_.forget_exit();   // it was read on the way in
       since_m_ = unread_s_ = 0.0f;
     }
   }
@@ -264,7 +264,10 @@ class RoadWatch {
     if (unread_s_ > kReadingLasts_s) without_line_m_ = 0.0f;   // the robot comes to the sign anew
     sign_ = sign;
     unread_s_ = since_m_ = 0.0f;
-    if (moves_) came_rad_ = here_.heading_rad, came_known_ = pilot.place().heading_known();
+    if (moves_) {
+      came_rad_ = here_.heading_rad;
+      came_known_ = pilot.place().heading_known();
+    }
   }
   /// Where its road begins lies the sign of the landmark that it leaves, so one that names another is misread, or a neighbour's.
   [[nodiscard]] bool misreads_begin(const Pilot& pilot, const SignRead& sign) const noexcept {

@@ -14,6 +14,11 @@ struct SignRead {
   std::uint32_t fact = 0;           ///< the landmark's, in the numbering of whoever writes facts; so are the bits below
   bool safe = true;
   std::uint64_t closed = 0, cross_by = 0;
+
+  void forget_exit() noexcept {
+    exit = "";
+    exit_rad_known = false;
+  }
 };
 
 }  // namespace mts

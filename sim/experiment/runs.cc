@@ -176,12 +176,14 @@ Row Prepared::drive(std::uint32_t scenario, const Method& method, std::size_t se
   const Scenario read = town.scenario(what.scenario, setup_.set[set]);
   const Labyrinth& labyrinth = town.labyrinth();
   const CrossingId goal = route_.crossings.back();
-  const mts::Body body = as.in(as_driven(read.body, read.sensors.range, read.drive));
+  const mts::Body robot = as_driven(read.body, read.sensors.range, read.drive);
+  const mts::Similarity own(robot);
+  const mts::Body body = own.in(robot);
   const double size = labyrinth.size;
   const Pose start{read.start.x_m / size, read.start.y_m / size, read.start.heading_rad};
   std::unique_ptr<Helm> helm;
-  if (method.control == Method::Control::kProgrammed) helm = std::make_unique<SizedHelm>(as, std::make_unique<Programmed>(floor_, body, start, route_));
-  if (method.control == Method::Control::kBug) helm = std::make_unique<SizedHelm>(as, std::make_unique<BugHelm>(body, start, floor_[goal].name, floor_[goal].at));
+  if (method.control == Method::Control::kProgrammed) helm = std::make_unique<SizedHelm>(own, std::make_unique<Programmed>(floor_, body, start, route_));
+  if (method.control == Method::Control::kBug) helm = std::make_unique<SizedHelm>(own, std::make_unique<BugHelm>(body, start, floor_[goal].name, floor_[goal].at));
   DriveOptions options;
   options.helm = helm.get();
   const Summary summary = Drive(labyrinth, town.knowledge(), read, options).run();

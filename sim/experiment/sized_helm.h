@@ -1,4 +1,4 @@
-// Puts a helm that knows only robots of size 1 on a robot of any size. That helm must be given places of the small floor.
+// Puts a helm that knows only quick robots of size 1 on any other. That helm must be given places of the small floor.
 #pragma once
 
 #include <memory>

@@ -11,19 +11,19 @@ struct DriveLimits {
   double wheel_base_m = static_cast<double>(kRobot.wheel_base_m);
   double speed_m_s = static_cast<double>(kRobot.top_speed_m_s);           ///< of a wheel
   double acceleration_m_s2 = static_cast<double>(kRobot.top_acceleration_m_s2);   ///< of a wheel
-  double turn_rad_s = 3.0;          ///< of the body; on the spot its wheels alone could do 2 speed / wheel_base
+  double turn_rad_s = static_cast<double>(kRobot.top_turn_rad_s);          ///< of the body; on the spot its wheels alone could do 2 speed / wheel_base
   double slip = 0.01;               ///< spread of the share of a wheel's way lost to slip
   double slip_mean = 0.0;           ///< the mean of that share
   double wheel_mismatch = 0.0;      ///< spread, from drive to drive, of how much larger the right wheel is than the left one
   double motor_lag_s = 0.0;         ///< time constant with which a wheel follows its command
 };
 
-/// The limits of a body, whose turn is the default of its size; the other values are the defaults.
+/// The limits of a body; the other values are the defaults.
 [[nodiscard]] inline DriveLimits limits_of(const mts::Body& body) {
   return {.wheel_base_m = static_cast<double>(body.wheel_base_m),
           .speed_m_s = static_cast<double>(body.top_speed_m_s),
           .acceleration_m_s2 = static_cast<double>(body.top_acceleration_m_s2),
-          .turn_rad_s = DriveLimits{}.turn_rad_s * static_cast<double>(mts::Similarity(body.size).of("rad/s"))};
+          .turn_rad_s = static_cast<double>(body.top_turn_rad_s)};
 }
 
 class DriveTrain {

@@ -26,6 +26,17 @@ void read_row(TomlTable& line, mts::Body& body) {
   set("span", around({0.04, 0.2}, size), body.line_span_m);
 }
 
+/// Warns of a sensor that controllers cannot use. Older readings than half a second count as silent, and with readings that are later than this robots swing about
+/// their roads and miss stop lines: docs/simulator.md has the figures. Nothing waits for bumper and tag reader.
+void check_rate(TomlTable& table, SensorId id, const SensorBuild& build, const mts::Body& body) {
+  const double longer = static_cast<double>(mts::Similarity(body.size).of("s"));
+  const double least_hz = 3.0 / longer, latest_s = (id == SensorId::kRange ? 0.3 : 0.1) * longer;
+  const bool seldom = build.rate_hz < least_hz, late = build.latency_s > latest_s;
+  if (build.rate_hz == 0.0 || id == SensorId::kBumper || id == SensorId::kTag || (!seldom && !late)) return;
+  table.diagnostics().report(Kind::kSimSeldom, table.span(seldom ? "rate" : "latency"),
+                             {fmt::format("{:g}", build.rate_hz), fmt::format("{:g}", build.latency_s), fmt::format("{:.2g}", least_hz), fmt::format("{:.2g}", latest_s)});
+}
+
 void read_build(TomlTable& sensors, SensorId id, Scenario& scenario) {
   SensorBuild& build = scenario.sensors[id];
   auto table = sensors.table(kSensorNames[static_cast<std::size_t>(id)]);
@@ -35,6 +46,7 @@ void read_build(TomlTable& sensors, SensorId id, Scenario& scenario) {
   if (id != SensorId::kBumper) build.noise = table->number("noise", {0.0, 1.0}).value_or(build.noise);
   if (id != SensorId::kBumper && id != SensorId::kTag) build.bias = table->number("bias", {0.0, 1.0}).value_or(build.bias);
   if (id == SensorId::kLine) read_row(*table, scenario.body);
+  check_rate(*table, id, build, scenario.body);
   table->done();
 }
 
@@ -51,7 +63,7 @@ void read_body(TomlTable& robot, Scenario& scenario) {
   set("wheel_base", {0.05 * size, 2.0 * radius_m}, drive.wheel_base_m);
   set("speed", {0.05, 1.5 * fast}, drive.speed_m_s);
   set("acceleration", {0.1, 10.0}, drive.acceleration_m_s2);
-  set("turn", {0.1, 10.0}, drive.turn_rad_s);
+  set("turn", {0.3 * static_cast<double>(as.of("rad/s")), 10.0}, drive.turn_rad_s);
   set("slip", {0.0, 0.3}, drive.slip);
   set("slip_mean", {0.0, 0.3}, drive.slip_mean);
   set("wheel_mismatch", {0.0, 0.1}, drive.wheel_mismatch);
@@ -61,6 +73,7 @@ void read_body(TomlTable& robot, Scenario& scenario) {
   body.wheel_base_m = static_cast<float>(drive.wheel_base_m);
   body.top_speed_m_s = static_cast<float>(drive.speed_m_s);
   body.top_acceleration_m_s2 = static_cast<float>(drive.acceleration_m_s2);
+  body.top_turn_rad_s = static_cast<float>(drive.turn_rad_s);
 }
 
 // note [a row and its lines]

@@ -1,3 +1,4 @@
+#include <waymark/controllers/bind_line.h>
 #include <waymark/controllers/similarity.h>
 
 #include <gtest/gtest.h>
@@ -59,6 +60,54 @@ TEST(Similarity, WhatSaysNothingSaysNothing) {
   EXPECT_EQ(small.range_m[3], kOutOfRange);
   EXPECT_EQ(small.ranges_unknown, senses.ranges_unknown);
   EXPECT_EQ(small.age.range_s, 0.5f);
+}
+
+TEST(Similarity, AQuickRobotIsConvertedByItsSizeAlone) {
+  for (const float size : {0.5f, 1.0f, 3.0f}) {
+    const Body robot = Similarity(size).out(Body{});
+    EXPECT_EQ(Similarity::slowness(robot), 1.0f) << size;
+    EXPECT_EQ(Similarity(robot).of("s"), Similarity(size).of("s")) << size;
+    EXPECT_EQ(Similarity(robot).in(robot).top_acceleration_m_s2, robot.top_acceleration_m_s2) << size;
+  }
+}
+
+TEST(Similarity, ASlowRobotHasTheAccelerationOfAQuickOneInItsOwnTime) {
+  Body robot;
+  robot.top_acceleration_m_s2 = 0.25f;
+  const Similarity as(robot);
+  EXPECT_EQ(as.of("s"), 2.0f);
+  EXPECT_EQ(as.of("m"), 1.0f);
+  EXPECT_EQ(as.in(robot).top_acceleration_m_s2, Similarity::kQuick_m_s2);
+  EXPECT_EQ(as.in(robot).range_latency_s, 0.5f * robot.range_latency_s);
+  EXPECT_EQ(as.out(Motion{0.4f, 2.0f}).speed_m_s, 0.2f);
+  EXPECT_EQ(as.out(Motion{0.4f, 2.0f}).turn_rad_s, 1.0f);
+  EXPECT_EQ(as.of_size().of("s"), 1.0f);
+}
+
+TEST(Similarity, WhatIsWeakestTellsHowSlowARobotIs) {
+  Body robot;
+  robot.top_turn_rad_s = 0.5f;
+  EXPECT_EQ(Similarity::slowness(robot), 2.0f);
+  robot.top_speed_m_s = 0.05f;
+  EXPECT_EQ(Similarity::slowness(robot), 4.0f);
+  robot.top_acceleration_m_s2 = 0.01f;
+  EXPECT_EQ(Similarity::slowness(robot), Similarity::kSlowest);
+  for (const float odd : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    robot.top_acceleration_m_s2 = odd;
+    EXPECT_EQ(Similarity::slowness(robot), Similarity::kSlowest) << odd;
+  }
+}
+
+TEST(Similarity, ASlowRobotMeansTheSpeedsBelowThePresetOfItsLines) {
+  Body robot;
+  robot.top_acceleration_m_s2 = 0.25f;
+  const Similarity as(robot);
+  const Parameter &speed = *find_parameter(ControllerId::kFollowLine, "speed"), &kp = *find_parameter(ControllerId::kFollowLine, "kp");
+  EXPECT_EQ(speed.preset, 0.4f);
+  EXPECT_EQ(as.out(small_value(0.1f, speed, as), "m/s"), 0.1f);
+  EXPECT_EQ(as.out(small_value(0.3f, speed, as), "m/s"), 0.2f) << "half of the preset";
+  EXPECT_EQ(as.out(small_value(0.6f, speed, as), "m/s"), 0.3f) << "half of what is asked for";
+  EXPECT_EQ(small_value(75.0f, kp, as), 75.0f) << "as for a quick one";
 }
 
 /// Between walls with a bend: where the robot is after each period.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include <waymark/controllers/similarity.h>
 #include "tools/kbc/trace/json_number.h"
 #include "tools/kbc/wire/line.h"
 #include "tools/kbc/wire/own_sensors.h"
@@ -58,7 +59,8 @@ Document sensors_json(const sim::Knowledge& knowledge) {
 Document robot_json(const sim::Scenario& robot) {
   const mts::Body body = sim::as_driven(robot.body, robot.sensors.range, robot.drive);
   return {{"size", trace::json_number(body.size)}, {"radius_m", trace::json_number(body.radius_m)}, {"wheel_base_m", trace::json_number(body.wheel_base_m)}, {"speed_m_s", trace::json_number(body.top_speed_m_s)},
-          {"acceleration_m_s2", trace::json_number(body.top_acceleration_m_s2)}, {"line_ahead_m", trace::json_number(body.line_ahead_m)},
+          {"acceleration_m_s2", trace::json_number(body.top_acceleration_m_s2)}, {"turn_rad_s", trace::json_number(body.top_turn_rad_s)},
+          {"pace", trace::json_number(1.0f / mts::Similarity::slowness(body))}, {"line_ahead_m", trace::json_number(body.line_ahead_m)},
           {"line_span_m", trace::json_number(body.line_span_m)}, {"range_latency_s", trace::json_number(body.range_latency_s)}};
 }
 

@@ -1,0 +1,1 @@
+# RUN: printf '[sensors.compass]\nrate = 2\n[sensors.range]\nrate = 20\nlatency = 0.7\n[sensors.odometry]\nrate = 3\n[sensors.tag]\nrate = 1\n[sensors.line]\nrate = 0\nlatency = 0.9\n' > %t/slow.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/slow.toml | head -1
