@@ -41,7 +41,7 @@ macro(kb_read_arguments caller)
     list(APPEND options --library ${library})
   endif()
   set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.kb)
-  if(EXISTS ${out} AND NOT IS_DIRECTORY ${out})
+  if((EXISTS ${out} AND NOT IS_DIRECTORY ${out}) OR source STREQUAL out)
     message(FATAL_ERROR "${caller}: ${out} is to be a folder, and is a file: build in a folder of its own (cmake -B build), or give the target another name")
   endif()
   file(MAKE_DIRECTORY ${out})
@@ -87,7 +87,7 @@ function(kb_add_library name file)
     DEPENDS ${source} ${stamp} Waymark::kbc
     DEPFILE ${out}/${stem}.d
     COMMENT "Compiling the knowledge base ${file}"
-    VERBATIM)
+    COMMAND_EXPAND_LISTS VERBATIM)
   add_library(${name} STATIC ${made})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${out}> $<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}>)
   # Who links two of one namespace is told so by CMake, where their headers would be ambiguous. Libraries that keep theirs to
@@ -97,8 +97,6 @@ function(kb_add_library name file)
   string(MAKE_C_IDENTIFIER "${namespace}" unique)
   string(PREPEND unique "a_program_can_link_one_knowledge_base_of_a_namespace__give_the_other_kb_add_library_a_NAMESPACE__")
   set_target_properties(${name} PROPERTIES COMPATIBLE_INTERFACE_STRING "${unique}" "INTERFACE_${unique}" ${name})
-  # See runtime/math.h: the same floats from every compiler.
-  target_compile_options(${name} PRIVATE -ffp-contract=off)
   target_link_libraries(${name} PUBLIC Waymark::runtime)
   if(arg_MAP)
     target_link_libraries(${name} PUBLIC Waymark::controllers)
@@ -125,7 +123,7 @@ function(kb_add_image name file)
     DEPENDS ${source} ${stamp} Waymark::kbc
     DEPFILE ${image}.d
     COMMENT "Compiling the image of ${file}"
-    VERBATIM)
+    COMMAND_EXPAND_LISTS VERBATIM)
   add_custom_target(${name} ALL DEPENDS ${image})
   set_target_properties(${name} PROPERTIES KB_IMAGE ${image})
 endfunction()

@@ -57,8 +57,8 @@ struct Levels {
 // Plain double, for the compiler only.
 constexpr double table_log(double x) {
   int k = 0;
-  while (x > 1.5) x *= 0.5, ++k;
-  while (x < 0.75) x *= 2.0, --k;
+  for (; x > 1.5; ++k) x *= 0.5;
+  for (; x < 0.75; --k) x *= 2.0;
   const double s = (x - 1.0) / (x + 1.0);
   double power = s, sum = 0.0;
   for (int n = 1; n < 40; n += 2, power *= s * s) sum += power / n;

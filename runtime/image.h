@@ -96,7 +96,7 @@ enum class Checksum : std::uint8_t { kVerify, kTrust };
 [[nodiscard]] inline ImageStatus peek_image(const void* bytes, std::size_t size, ImageInfo& info);
 
 /// The length of the image at the beginning of a flash slot, to pass to `peek_image` and other functions that take a length. The slot may
-/// be longer; what follows the image is not read. 0 if no image begins there: the slot is erased or holds something else, or the length in
+/// be longer; what follows the image is not read. 0 if no image begins there: the slot is erased or holds something else, the machine is big-endian, or the length in
 /// the head exceeds the slot or does not match its counts. The head is treated as hostile; tables and checksum are left to `open_image`.
 /// `bytes` must be aligned to 4. Cost: constant.
 [[nodiscard]] inline std::size_t image_length(const void* bytes, std::size_t slot_size);

@@ -2,9 +2,9 @@
 // every compiler at every optimisation level. Each is written as additions, multiplications and divisions of `float` in one
 // fixed order; nothing depends on a rounding mode, a table or `errno`.
 //
-// That holds as long as the compiler does not fuse `a * b + c` into one operation. kb_add_library() compiles emitted code
-// with -ffp-contract=off; who compiles it by other means should do the same. With fusing, results stay within the bounds
-// stated here and may differ in the last bit between targets. So may those of x87 registers, which keep more bits than a float has: on x86
+// That holds as long as the compiler does not fuse `a * b + c` into one operation. The CMake targets and waymark.pc compile all that includes
+// these headers with -ffp-contract=off; who compiles by other means should do the same, for each such file: of functions that several
+// files hold the linker takes any one. With fusing, results stay within the bounds stated here and may differ in the last bit between targets. So may those of x87 registers, which keep more bits than a float has: on x86
 // of 32 bits it takes -msse2 -mfpmath=sse.
 //
 // note [a bound in ulp]
@@ -22,6 +22,10 @@
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0)
 #error "-ffast-math and -ffinite-math-only let the compiler change results and drop the tests for NaN; compile this file without them"
 #endif
+#if defined(__ASSOCIATIVE_MATH__)
+#error "-funsafe-math-optimizations and -fassociative-math let the compiler change results; compile this file without them"
+#endif
+static_assert(0.1 - static_cast<double>(0.1f) < 0.0, "-fsingle-precision-constant changes results; compile this file without it");
 
 namespace mts {
 

@@ -71,8 +71,10 @@ std::size_t perception_state_bytes(const mts::PerceptionShape& n) {
   return n.readings * reading + n.fits * fit + n.facts * fact + 2 * sizeof(std::int64_t) + sizeof(mts::SightReport) + 1;
 }
 
+/// What walking the tables takes; the degrees of a condition and of what it is `given` have a fixed bound.
 std::size_t fuzzy_stack_bytes(const FuzzyForm& form) {
-  return (form.inputs.size() + form.outputs.size() + form.slot_of_degree.size()) * sizeof(float) + form.fired * sizeof(mts::FuzzyFired) +
+  constexpr std::size_t kWalk = (mts::kMaxFuzzyStack + mts::kMaxFuzzyDepth + 1) * sizeof(float);
+  return kWalk + (form.inputs.size() + form.outputs.size() + form.slot_of_degree.size()) * sizeof(float) + form.fired * sizeof(mts::FuzzyFired) +
          form.outputs.size() * (sizeof(mts::FuzzySums) + sizeof(mts::FuzzyStrongest) + sizeof(std::uint32_t));
 }
 
@@ -93,6 +95,7 @@ Budget budget(const Tables& tables, const program::Program& program) {
   const PerceptionForm perception = build_perception(program);
   b.perception_table_bytes = perception_table_bytes(perception, tables.narrow ? 2 : 4);
   b.perception_state_bytes = perception_state_bytes(perception.shape);
+  if (b.perception_table_bytes != 0) b.perception_stack_bytes = mts::kMaxPerceptDepth * sizeof(float);
   for (const FuzzyForm& form : tables.fuzzy) {
     b.fuzzy_table_bytes += bytes(form);
     b.fuzzy_stack_bytes = std::max(b.fuzzy_stack_bytes, fuzzy_stack_bytes(form));

@@ -40,6 +40,7 @@ struct Budget {
   std::size_t mask_bytes = 0;         ///< read-only, besides the tables, of emitted code that is compiled for speed
   std::size_t name_bytes = 0;         ///< the text of names, without a pointer to each; only if names are linked in
   std::size_t perception_table_bytes = 0, perception_state_bytes = 0;   ///< the same for perception, readings and texts included
+  std::size_t perception_stack_bytes = 0;   ///< temporary stack of putting a fact together
   std::size_t fuzzy_table_bytes = 0;  ///< of all fuzzy controllers, read-only
   std::size_t fuzzy_stack_bytes = 0;  ///< temporary stack of evaluating the largest one by its tables
   std::uint32_t facts = 0, satellites = 0, strategies = 0, rules = 0, atoms = 0, nodes = 0, timers = 0;

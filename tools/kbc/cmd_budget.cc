@@ -35,6 +35,7 @@ std::string print_json(const tables::Budget& b) {
                                          {"counted", b.counted},
                                          {"perception_table_bytes", b.perception_table_bytes},
                                          {"perception_state_bytes", b.perception_state_bytes},
+                                         {"perception_stack_bytes", b.perception_stack_bytes},
                                          {"fuzzy_table_bytes", b.fuzzy_table_bytes},
                                          {"fuzzy_stack_bytes", b.fuzzy_stack_bytes}};
   return object.dump(2) + "\n";
@@ -54,10 +55,11 @@ std::string print_text(const tables::Budget& b) {
     constexpr std::size_t kShared = sizeof mts::detail::kLevelTable + sizeof mts::detail::kCoarseLevels;
     line("perception", b.perception_table_bytes, fmt::format("bytes, read-only, besides the tables; and {} that all knowledge bases share", kShared));
     line("  its state", b.perception_state_bytes, "bytes of memory, readings included");
+    line("  its stack", b.perception_stack_bytes, "bytes for a moment, and up to 400 for calls");
   }
   if (b.fuzzy_table_bytes != 0) {
     line("fuzzy", b.fuzzy_table_bytes, "bytes, read-only, of all fuzzy controllers");
-    line("  its stack", b.fuzzy_stack_bytes, "bytes for a moment, of the largest one");
+    line("  its stack", b.fuzzy_stack_bytes, "bytes for a moment, of the largest one, and up to 300 for calls; as straight code some 100");
   }
   line("facts", b.facts, "");
   line("satellites", b.satellites, "");

@@ -8,6 +8,7 @@
 #include <future>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -136,7 +137,10 @@ std::string print_depfile(const Files& made, const std::vector<std::string>& rea
   for (const auto& file : made) out += (out.empty() ? "" : " ") + escape_for_make(file.path);
   out += ":";
   for (const std::string& file : read) out += " \\\n  " + escape_for_make(file);
-  return out + "\n";
+  out += "\n";
+  // A rule for each file that was read: else make stops where an import is gone that the knowledge base no longer names.
+  for (const std::string& file : std::span(read).subspan(1)) out += escape_for_make(file) + ":\n";
+  return out;
 }
 
 // Warns about what an image leaves out, at its declaration.

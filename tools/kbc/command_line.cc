@@ -248,7 +248,7 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
     return session.finish(entry.run(session));
   }
   std::fputs(line.app.help().c_str(), stdout);
-  return printed(kClean);
+  return printed(kUsage);   // a script whose command has got lost must not go on
 }
 
 int run_kbc_guarded(int argc, char** argv, Ranks* ranks) {
