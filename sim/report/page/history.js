@@ -10,6 +10,7 @@ class HistoryView {
     this.byTurn = true;
     this.cells = [];
     this.left = 0;                     // the first column in sight
+    this.roving = new Roving(byId('history-names'), 'button');
     for (const [id, turn] of [['by-turn', true], ['by-tick', false]]) onPress(byId(id), () => this.columns(turn));
     byId('width').addEventListener('input', () => this.show(this.app.frame));
     byId('history-facts').addEventListener('change', () => this.fill());
@@ -30,11 +31,15 @@ class HistoryView {
     const of = (kind) => (kind === kFact ? factsInOrder(drive) : drive.cells.filter((cell) => cell.kind === kind)).filter((cell) => drive.changes(cell));
     const groups = [of(kStrategy), of(kSatellite), facts ? of(kFact) : []];
     this.cells = groups.flat();
-    byId('history-names').replaceChildren(...groups.flatMap((group) => group.map((cell, i) => {
-      const button = onPress(make(i ? 'button' : 'button.first', {title: cell.name}, cell.name), () => this.app.choose({cell: cell.id}));
+    const names = byId('history-names'), focus = names.contains(document.activeElement) && document.activeElement.dataset.cell;
+    names.replaceChildren(...groups.flatMap((group) => group.map((cell, i) => {
+      const button = onPress(make(i ? 'button' : 'button.first', {title: cell.name}, cell.name), (event) => this.app.choose({cell: cell.id}, event));
       button.dataset.cell = cell.id;
       return button;
     })));
+    const again = focus && names.querySelector(`[data-cell="${focus}"]`);
+    if (again) again.focus({preventScroll: true});
+    this.roving.settle(again);
     this.show(this.app.frame);
   }
 
@@ -47,7 +52,7 @@ class HistoryView {
     const column = this.left + Math.floor((event.clientX - box.left) / width);
     const row = Math.floor((event.clientY - box.top - kHeadPx + this.scroll()) / kCellPx);
     if (column < this.count()) this.app.go(this.frameOf(column));
-    if (event.clientY - box.top > kHeadPx && this.cells[row]) this.app.choose({cell: this.cells[row].id});
+    if (event.clientY - box.top > kHeadPx && this.cells[row]) this.app.choose({cell: this.cells[row].id}, event);
   }
   scroll() { return this.box.scrollTop; }
 

@@ -1,0 +1,133 @@
+// Who has no mouse, or hears the page, or enlarges it: the keyboard keeps its place, what is said is said once, what is written can be read.
+import {test} from 'node:test';
+import assert from 'node:assert/strict';
+import {browse, tick, truth, until} from './browser.mjs';
+
+const {withPage} = browse();
+const go = (page, at) => page.evaluate((to) => waymark.go(to), at);
+const firing = (name) => truth.findIndex((frame) => frame.fired.includes(name));
+const spoken = (page) => page.textContent('#spoken');
+/// What has the focus: its id, or the list it is in and its name.
+const focus = (page) => page.evaluate(() => {
+  const one = document.activeElement;
+  return one.id || `${one.closest('[id]')?.id ?? one.tagName}: ${one.getAttribute('aria-label') || one.title || one.textContent}`;
+});
+const within = (page, id) => page.evaluate((box) => document.getElementById(box).contains(document.activeElement), id);
+const small = {viewport: {width: 640, height: 400}};     // 1280x800 at 200 %
+
+test('one place speaks, and not while it plays', () => withPage('drive.html', async (page) => {
+  const live = 'output, [aria-live]:not([aria-live="off"]), [role="status"], [role="alert"], [role="log"], [role="timer"]';
+  assert.deepEqual(await page.$$eval(live, (all) => all.map((one) => one.id)), ['spoken']);
+  await page.focus('#scrub');
+  await page.evaluate(() => {
+    window.said = 0;
+    const count = new MutationObserver((all) => { said += all.length; });
+    count.observe(document.getElementById('spoken'), {childList: true, characterData: true, subtree: true});
+    count.observe(document.getElementById('scrub'), {attributeFilter: ['aria-valuetext']});
+  });
+  await page.keyboard.press('Space');
+  await until(page, () => waymark.frame > 10);
+  assert.equal(await page.evaluate(() => said), 0);
+  await page.keyboard.press('Space');
+  assert.match(await spoken(page), /^tick \d+, /);
+  assert.ok((await page.getAttribute('#scrub', 'aria-valuetext')).startsWith(`tick ${await tick(page) + 1} of`));
+}));
+
+test('who asks by the keyboard is led to the reason, hears it, and comes back', () => withPage('drive.html', async (page) => {
+  const at = firing('arrive[Route1[LM1,LM5]]');
+  await go(page, at);
+  for (const [where, expected] of [['#facts button[title="LM5"]', /^LM5: fact, 0\.\d+ .*; Seen/], ['#satellites button[title="sat LM2"]', /^sat LM2: satellite, 1/],
+    ['#strategy', /^Move\.\w+: strategy/], ['#history-names button[title="Move.mark"]', /^Move\.mark: strategy/], ['#log .row.current', /^.*: at .*; fired at this tick/]]) {
+    await page.focus(where);
+    const from = await focus(page);
+    await page.keyboard.press('Enter');
+    assert.equal(await focus(page), 'why-title', where);
+    assert.match(await spoken(page), expected);
+    assert.ok((await spoken(page)).startsWith(await page.textContent('#why-title')));
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await focus(page), 'why-title', 'a step leaves it there');
+    await page.keyboard.press('ArrowLeft');
+    await page.keyboard.press('Escape');
+    assert.equal(await focus(page), from);
+    assert.equal(await page.getAttribute('#tab-log', 'aria-selected'), 'true');
+  }
+  // Also while it plays, when reasons do not come with every tick.
+  await page.evaluate(() => { waymark.player.play(), waymark.choose({cell: 0}), waymark.choose({cell: 1}); });
+  assert.ok((await spoken(page)).startsWith(await page.evaluate(() => `${waymark.drive.cells[1].name}: `)));
+}));
+
+test('no button in the reasons loses the focus, whatever is explained', () => withPage('drive.html', async (page) => {
+  await go(page, firing('go_round') + 2);
+  const chosen = await page.evaluate(() => [...waymark.drive.cells.map((_, cell) => ({cell})), ...waymark.drive.rules.map((_, rule) => ({rule}))]
+    .filter((_, i) => i % 5 === 0));
+  const lost = await page.evaluate((all) => {
+    const out = [], panel = document.getElementById('why-panel'), at = waymark.frame;
+    const ask = (what) => { waymark.go(at), waymark.choose(what); return [...panel.querySelectorAll('button')]; };
+    const key = (name) => document.activeElement.dispatchEvent(new KeyboardEvent('keydown', {key: name, bubbles: true, cancelable: true}));
+    for (const what of all) {
+      for (let i = 0; i < ask(what).length; ++i) {
+        for (const act of [() => document.activeElement.click(), () => key('.'), () => key('ArrowLeft')]) {
+          const button = ask(what)[i];
+          if (button.disabled) continue;
+          button.focus(), act();
+          if (!panel.contains(document.activeElement)) out.push(`${JSON.stringify(what)}: ${button.textContent} by ${act}`);
+        }
+      }
+    }
+    return out;
+  }, chosen);
+  assert.deepEqual(lost, []);
+  await page.focus('#why-panel');
+  await page.keyboard.press('Escape');
+  assert.equal(await focus(page), 'tab-log', 'nothing was asked by the keyboard');
+}));
+
+test('a list is one stop of the tab key; the arrows move in it', () => withPage('drive.html', async (page) => {
+  await go(page, firing('go_round'));
+  const stops = [];
+  do { await page.keyboard.press('Tab'), stops.push(await focus(page)); } while (stops.length < 80 && !stops.slice(0, -1).includes(stops.at(-1)));
+  for (const list of ['facts', 'satellites', 'history-names', 'log-rows']) assert.equal(stops.filter((stop) => stop.startsWith(`${list}: `)).length, 1, `${list} in ${stops.join('\n')}`);
+  assert.ok(stops.length < 40, `${stops.length} stops`);
+  const order = await page.$$eval('#history-names button', (all) => all.map((one) => one.title));
+  await page.focus('#history-names button');
+  const at = await tick(page), on = async (key, name) => { await page.keyboard.press(key), assert.ok((await focus(page)).endsWith(`: ${name}`), `${key}: ${await focus(page)}`); };
+  await on('ArrowDown', order[1]), await on('ArrowDown', order[2]), await on('ArrowUp', order[1]), await on('End', order.at(-1)), await on('ArrowDown', order.at(-1)), await on('Home', order[0]);
+  assert.equal(await tick(page), at, 'the drive stays where it is');
+  await page.focus('#log .row.current');
+  await page.keyboard.press('End');
+  assert.equal(await page.evaluate(() => Number(document.activeElement.dataset.entry)), await page.evaluate(() => waymark.drive.log.length - 1));
+  for (let i = 0; i < 40; ++i) await page.keyboard.press('ArrowUp');
+  assert.equal(await page.evaluate(() => Number(document.activeElement.dataset.entry)), await page.evaluate(() => waymark.drive.log.length - 41));
+  await page.evaluate(() => waymark.go(0));
+  assert.ok(await within(page, 'log'), 'also if its row is far away');
+}));
+
+test('the first stops lead past the rest', () => withPage('drive.html#tick=96', async (page) => {
+  for (const [n, to] of [[1, 'tab-log'], [2, 'by-turn'], [3, 'play']]) {
+    await page.evaluate(() => { document.activeElement.blur(), getSelection().removeAllRanges(); });
+    await page.focus(`.skips a:nth-child(${n})`);
+    assert.ok((await page.locator('.skips a:focus').boundingBox()).height > 15, 'it can be seen');
+    await page.keyboard.press('Enter');
+    assert.equal(await focus(page), to);
+  }
+  assert.ok(page.url().endsWith('#tick=96'));
+}));
+
+test('what has the focus is not below the controls on an enlarged page', () => withPage('drive.html', async (page) => {
+  await go(page, firing('go_round'));
+  for (const key of ['Tab', 'Shift+Tab']) {
+    const seen = new Set(), hidden = [];
+    for (let i = 0; i < 60; ++i) {
+      await page.keyboard.press(key);
+      if (i % 3 === 0) await page.keyboard.press('ArrowDown');
+      const [name, covered] = await page.evaluate(() => {
+        const one = document.activeElement, box = one.getBoundingClientRect(), bar = document.getElementById('transport').getBoundingClientRect();
+        return [one.id || one.textContent, !one.closest('#transport') && one !== document.body && box.height < 100 && box.bottom > bar.top + 1];
+      });
+      seen.add(name);
+      if (covered) hidden.push(name);
+    }
+    assert.ok(seen.size > 20);
+    assert.deepEqual(hidden, []);
+  }
+}, small));
