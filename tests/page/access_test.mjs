@@ -1,7 +1,8 @@
 // Who has no mouse, or hears the page, or enlarges it: the keyboard keeps its place, what is said is said once, what is written can be read.
 import {test} from 'node:test';
 import assert from 'node:assert/strict';
-import {browse, tick, truth, until} from './browser.mjs';
+import {browse, tick, truth, shot, until} from './browser.mjs';
+import {contrast, themes, faintText} from './contrast.mjs';
 
 const {withPage} = browse();
 const go = (page, at) => page.evaluate((to) => waymark.go(to), at);
@@ -131,3 +132,34 @@ test('what has the focus is not below the controls on an enlarged page', () => w
     assert.deepEqual(hidden, []);
   }
 }, small));
+
+test('colours of words can be read on every ground, by light and in the dark', () => {
+  const texts = ['ink', 'soft', 'faint', 'blue', 'orange'], weak = [];
+  for (const [mode, colours] of Object.entries(themes())) {
+    const pairs = [...texts.flatMap((text) => ['card', 'raise', 'ground', 'low'].map((ground) => [text, ground])), ['ink', 'blue-soft'], ['soft', 'blue-soft'],
+      ['card', 'blue'], ['card', 'high'], ['ink', 'zero'], ['ink', 'orange-soft']];
+    for (const [text, ground] of pairs) {
+      const ratio = contrast(colours[text], colours[ground]);
+      if (!(ratio >= 4.5)) weak.push(`${mode}: ${text} on ${ground}: ${ratio.toFixed(2)}`);
+    }
+  }
+  assert.deepEqual(weak, []);
+});
+
+test('words that are shown can be read, by light and in the dark', async () => {
+  for (const colorScheme of ['light', 'dark']) {
+    await withPage('drive.html', async (page) => {
+      for (const id of ['all-facts', 'all-satellites']) await page.check(`#${id}`);
+      for (const at of [0, firing('go_round'), truth.length - 1]) {
+        await go(page, at);
+        assert.deepEqual(await page.evaluate(faintText), [], `${colorScheme}, rules at tick ${at + 1}`);
+        await page.evaluate(() => waymark.choose({cell: waymark.drive.strategy.at(waymark.frame)}));
+        assert.deepEqual(await page.evaluate(faintText), [], `${colorScheme}, reasons at tick ${at + 1}`);
+        await page.evaluate(() => waymark.close());
+      }
+      await page.click('#help-open');
+      assert.deepEqual(await page.evaluate(faintText), [], `${colorScheme}, keys`);
+      await shot(page, `keys_${colorScheme}`);
+    }, {colorScheme});
+  }
+});
