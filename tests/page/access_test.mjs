@@ -133,6 +133,17 @@ test('what has the focus is not below the controls on an enlarged page', () => w
   }
 }, small));
 
+test('a detour is told at every width', async () => {
+  for (const width of [640, 910, 1280]) {
+    await withPage('drive.html', async (page) => {
+      await go(page, truth.findIndex((frame) => frame.leg === 'Route1[LM7,LM11]'));
+      const tag = await page.locator('#leg .tag').boundingBox(), box = await page.locator('#leg').boundingBox();
+      assert.ok(tag.width > 20 && tag.x + tag.width <= box.x + box.width + 0.5 && box.x + box.width <= width, `at ${width}: ${JSON.stringify([tag, box])}`);
+      assert.ok(await page.$eval('#leg .ends', (ends) => ends.scrollWidth <= ends.clientWidth), `both ends at ${width}`);
+    }, {viewport: {width, height: 512}});
+  }
+});
+
 test('colours of words can be read on every ground, by light and in the dark', () => {
   const texts = ['ink', 'soft', 'faint', 'blue', 'orange'], weak = [];
   for (const [mode, colours] of Object.entries(themes())) {
@@ -162,4 +173,57 @@ test('words that are shown can be read, by light and in the dark', async () => {
       await shot(page, `keys_${colorScheme}`);
     }, {colorScheme});
   }
+});
+
+test('Home and End scroll the reasons; letters and signs can be switched off', () => withPage('drive.html', async (page) => {
+  await go(page, 150);
+  await page.focus('#strategy'), await page.keyboard.press('Enter');
+  await page.keyboard.press('End'), await page.keyboard.press('Home');
+  assert.equal(await tick(page), 150);
+  const follows = () => page.getAttribute('#follow', 'aria-pressed');
+  await page.keyboard.press('f');
+  assert.equal(await follows(), 'true');
+  await page.click('#help-open'), await page.uncheck('#letters'), await page.click('#help .primary');
+  for (const key of ['f', 's', '.', ',', '+', '?']) await page.keyboard.press(key);
+  assert.equal(await follows(), 'true'), assert.equal(await tick(page), 150), assert.equal(await page.inputValue('#speed'), '1'), assert.ok(!await page.locator('#help').isVisible());
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await tick(page), 151, 'the others go on acting');
+  await page.reload();
+  assert.ok(!await page.isChecked('#letters'), 'it is remembered');
+}));
+
+test('the labyrinth is enlarged and moved without a mouse', () => withPage('drive.html', async (page) => {
+  const place = () => page.evaluate(() => { const {zoom, shiftX, shiftY} = waymark.floor; return [zoom, shiftX, shiftY]; });
+  await page.click('#enlarge');
+  assert.deepEqual(await place(), [1.25, 0, 0]);
+  await page.click('#reduce');
+  await page.focus('#floor');
+  const at = await tick(page);
+  await page.keyboard.press('+'), await page.keyboard.press('ArrowRight'), await page.keyboard.press('ArrowDown');
+  assert.deepEqual(await place(), [1.25, -40, -40]);
+  assert.equal(await tick(page), at), assert.equal(await page.inputValue('#speed'), '1');
+  await page.keyboard.press('0');
+  assert.deepEqual(await place(), [1, 0, 0]);
+  await page.evaluate(() => document.activeElement.blur());
+  const box = await page.locator('#floor').boundingBox();
+  await page.mouse.click(box.x + 40, box.y + box.height / 2);
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await tick(page), at + 1, 'a click into it takes the keys from nothing');
+}));
+
+test('every switch has a name of its own, and names are large enough for a finger where there is room', async () => {
+  await withPage('drive.html', async (page) => {
+    const names = await page.$$eval('input, select', (all) => all.map((one) => one.getAttribute('aria-label') || one.closest('label').textContent.trim()));
+    assert.equal(new Set(names).size, names.length, names.join(', '));
+    await page.uncheck('#history-facts');
+    const room = await page.evaluate(() => (document.getElementById('history').clientHeight - 18) / waymark.history.cells.length);
+    const high = (await page.locator('#history-names button').first().boundingBox()).height;
+    assert.ok(Math.abs(high - Math.min(24, Math.max(16, Math.floor(room)))) < 0.1, `${high} of ${room}`);
+  });
+  await withPage('drive.html', async (page) => {
+    for (const where of ['#history-names button', '.fact', '.sat', '.row']) assert.ok((await page.locator(`${where}:visible`).first().boundingBox()).height >= 24, where);
+    // A click into the history still finds its row.
+    await page.locator('#cells').click({position: {x: 3, y: 18 + 2 * 24 + 12}});
+    assert.equal(await page.textContent('#why-title'), await page.getAttribute('#history-names button:nth-child(3)', 'title'));
+  }, {viewport: {width: 390, height: 844}});
 });

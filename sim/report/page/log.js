@@ -1,6 +1,6 @@
 // The rules as they fired, one row each; only the rows in sight are elements of the page.
 
-const kRowPx = 22;
+const kRowPx = 24;
 
 class LogView {
   constructor(app) {

@@ -102,6 +102,7 @@ class App {
       this.floor.follow(on), press('follow', on), press('fit', !on);
     });
     onPress(byId('sensors'), () => { this.floor.sensing = !this.floor.sensing, press('sensors', this.floor.sensing), this.floor.redraw(); });
+    onPress(byId('enlarge'), () => this.floor.nearer(kNearer)), onPress(byId('reduce'), () => this.floor.nearer(1 / kNearer));
     onPress(byId('help-open'), () => byId('help').showModal());
     for (const link of document.querySelectorAll('.skips a')) {
       link.addEventListener('click', (event) => {

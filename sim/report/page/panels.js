@@ -78,7 +78,7 @@ class NowView {
     const words = !name ? '–' : leg ? `${leg.from} → ${leg.to}` : name, key = words + (leg && leg.detour);
     if (place.dataset.key === key) return;
     place.dataset.key = key, place.title = name;
-    place.replaceChildren(words, ...(leg && leg.detour ? [make('span.tag', {}, 'detour')] : []));
+    place.replaceChildren(make('span.ends', {}, words), ...(leg && leg.detour ? [make('span.tag', {}, 'detour')] : []));
   }
 }
 

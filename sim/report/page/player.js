@@ -15,11 +15,20 @@ class Player {
     this.bar.addEventListener('input', () => this.app.go(Number(this.bar.value)));
     byId('speed').addEventListener('change', () => { this.speed = Number(byId('speed').value); });
     document.addEventListener('keydown', (event) => this.key(event));
+    this.letters();
     new ResizeObserver(() => this.drawBands()).observe(this.bands);
     // On a small page the controls lie over its end; what has the focus must not be below them.
     const controls = byId('transport');
     new ResizeObserver(() => document.documentElement.style.setProperty('--bar', `${controls.offsetHeight}px`)).observe(controls);
     dark.addEventListener('change', () => this.drawBands());
+  }
+
+  /// Who speaks to the machine, or hits keys by chance, can do without keys that are letters or signs. The browser remembers that
+  /// if it may.
+  letters() {
+    const box = byId('letters'), kKey = 'waymark.letters';
+    try { box.checked = localStorage.getItem(kKey) !== 'off'; } catch { /* nothing is remembered */ }
+    box.addEventListener('change', () => { try { localStorage.setItem(kKey, box.checked ? 'on' : 'off'); } catch { /* nor here */ } });
   }
 
   last() { return Math.max(0, this.app.drive.count - 1); }
@@ -80,6 +89,8 @@ class Player {
     if (event.ctrlKey || event.altKey || event.metaKey || byId('help').open) return;
     const where = event.target, pressed = event.key;
     if (pressed === ' ' && (where.tagName === 'BUTTON' || where.type === 'checkbox')) return;   // it presses what has the focus
+    if (pressed.length === 1 && pressed !== ' ' && !byId('letters').checked) return;
+    if (['Home', 'End'].includes(pressed) && where.closest('.scroll')) return;   // to its own beginning and end
     if (where.tagName === 'SELECT' || (where.type === 'range' && where !== this.bar)) return;
     const far = event.shiftKey ? 10 : 1;
     const keys = {
