@@ -67,6 +67,7 @@ struct LivePage::Server {
   std::thread thread;
   std::uint16_t port = 0;
 
+  void take(const Recording& recording);   // with `mutex` held
   void listen();
   void answer_page(httplib::Response& response);
   void answer_frames(const httplib::Request& request, httplib::Response& response);
@@ -180,18 +181,22 @@ bool LivePage::start(std::uint16_t port) {
 
 std::uint16_t LivePage::port() const { return server_->port; }
 
-void LivePage::append(const Recording& recording) {
-  const std::lock_guard lock(server_->mutex);
-  Recording& mine = server_->recording;
-  const std::size_t known = std::min(mine.frames.size(), recording.frames.size());
-  mine.frames.insert(mine.frames.end(), recording.frames.begin() + static_cast<std::ptrdiff_t>(known), recording.frames.end());
-  mine.stays = recording.stays;
-  mine.outcome = recording.outcome;
+void LivePage::Server::take(const Recording& given) {
+  const std::size_t known = std::min(recording.frames.size(), given.frames.size());
+  recording.frames.insert(recording.frames.end(), given.frames.begin() + static_cast<std::ptrdiff_t>(known), given.frames.end());
+  recording.stays = given.stays;
+  recording.outcome = given.outcome;
 }
 
-void LivePage::finish(const Recording& recording) {
-  append(recording);
+void LivePage::append(const Recording& recording) {
   const std::lock_guard lock(server_->mutex);
+  server_->take(recording);
+}
+
+// Under one lock: no page is told how the drive ended before it is told that it ended.
+void LivePage::finish(const Recording& recording) {
+  const std::lock_guard lock(server_->mutex);
+  server_->take(recording);
   server_->over = true;
 }
 

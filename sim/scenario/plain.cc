@@ -1,4 +1,4 @@
-// Makes the scenario in which nothing goes wrong.
+// Makes the scenario of a drive for which none is given: a command is pressed, and nothing is done to the robot.
 #include <algorithm>
 
 #include "sim/scenario/names.h"
@@ -40,7 +40,7 @@ std::optional<Scenario> unplaced_scenario(const Knowledge& knowledge, const mode
     diagnostics.report(diagnostics::Kind::kSimNoRoute, {});
     return std::nullopt;
   }
-  scenario.title = "nothing goes wrong";
+  scenario.title = "a drive without a scenario";   // whether something goes wrong is not known yet
   Event press;
   press.when.time_s = kPressAt;
   press.action.kind = Action::Kind::kPress;

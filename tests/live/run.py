@@ -20,14 +20,14 @@ KBC, LIBRARY, ROUTE = sys.argv[1:]
 LONGEST = 120.0   # seconds; a machine may be busy
 
 
-def sim(*options):
+def sim(*options, stdout=subprocess.PIPE):
     command = [KBC, 'sim', ROUTE, '--library', LIBRARY, '-w', *options]
-    return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE, text=True)
 
 
 @contextlib.contextmanager
-def running(*options):
-    drive = sim(*options)
+def running(*options, **how):
+    drive = sim(*options, **how)
     try:
         yield drive
     finally:
@@ -95,8 +95,8 @@ def beside_silent_connections():
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        page = pathlib.Path(folder) / 'drive.html'
-        with running('--live', '0', '--speed', '40', '--html', str(page)) as drive:
+        page, out = pathlib.Path(folder) / 'drive.html', pathlib.Path(folder) / 'out'
+        with out.open('w') as stdout, running('-q', '--live', '0', '--speed', '40', '--html', str(page), stdout=stdout) as drive:
             line = drive.stderr.readline()
             expect(line.startswith('http://127.0.0.1:'), f'it says where the page is: {line.strip()}')
             port = port_in(line)
@@ -112,10 +112,13 @@ def main():
             expect(other.returncode == 1 and 'KB1332' in said, 'a port that is taken is told')
 
             until(lambda: json.loads(ask(port, '/live/frames?from=0')[1])['over'], 'the drive comes to its end')
+            until(lambda: 'arrived' in out.read_text(), 'how it ended is told when it ends')
+            expect('LM11' in out.read_text(), 'it arrived by the way round')
+            expect(drive.poll() is None and ask(port, '/')[0] == 200, 'the page stays')
+            told = out.read_text()
             drive.send_signal(signal.SIGINT)
-            out, _ = drive.communicate(timeout=LONGEST)
-            expect(drive.returncode == 0, 'Ctrl-C ends it in order')
-            expect('arrived' in out and 'LM11' in out, 'it arrived by the way round')
+            drive.communicate(timeout=LONGEST)
+            expect(drive.returncode == 0 and out.read_text() == told, 'Ctrl-C ends it in order, and tells nothing twice')
             expect('road LM7.E--LM13.N closed' in page.read_text(), 'the drive was written, with what was done to it')
     with running('--live', '0', '--speed', '0.01', '--dt', '1s') as slow:   # a tick lasts 100 s
         slow.stderr.readline()

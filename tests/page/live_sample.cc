@@ -2,6 +2,8 @@
 //
 //   live_sample [MS [PORT [STOP]]]     says `port N`, then a line for each command; ends when its input does. It waits for a
 //                                      line of its input before it goes beyond tick STOP
+//
+// How the drive ended it says half a second after the last tick, as a real drive says it later than its pages may have all ticks.
 #include <poll.h>
 #include <unistd.h>
 
@@ -28,6 +30,7 @@ Input look_at_input() {
 
 int main(int argc, char** argv) {
   using kb::sim::Command;
+  using Clock = std::chrono::steady_clock;
   const kb::sim::Recording whole = kb::sim::testing::small_drive();
   kb::sim::Recording so_far = whole;
   so_far.frames.clear();
@@ -44,6 +47,7 @@ int main(int argc, char** argv) {
   const int tick_ms = argc > 1 ? std::atoi(argv[1]) : 20;
   std::size_t stop = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : whole.frames.size();
   bool paused = false;
+  Clock::time_point end = Clock::time_point::max();
   for (Input input = look_at_input(); input != Input::kEnd; input = look_at_input()) {
     if (input == Input::kByte) stop = whole.frames.size();
     for (const Command& command : page.commands()) {
@@ -58,12 +62,13 @@ int main(int argc, char** argv) {
       for (const auto& stay : whole.stays) {
         if (stay.first == next) so_far.stays.push_back(stay);
       }
-      if (next + 1 == whole.frames.size()) {
-        so_far.outcome = whole.outcome;
-        page.finish(so_far);
-      } else {
-        page.append(so_far);
-      }
+      page.append(so_far);
+      if (next + 1 == whole.frames.size()) end = Clock::now() + std::chrono::milliseconds(500);
+    }
+    if (Clock::now() >= end) {
+      so_far.outcome = whole.outcome;
+      page.finish(so_far);
+      end = Clock::time_point::max();
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(tick_ms));
   }

@@ -37,7 +37,8 @@ test('a live page grows to the end of the drive and shows what the recording say
   run.release();
   await until(page, (count) => waymark.drive.count === count && !waymark.live, truth.length);
   assert.equal(await page.textContent('#live'), 'over');
-  assert.equal(await page.textContent('#outcome'), '✓ arrived');
+  assert.equal(await page.textContent('#outcome'), '✓ arrived', 'also if that comes after the last tick');
+  assert.equal(await page.textContent('#spoken'), 'the drive is over: arrived');
   assert.equal(await page.getAttribute('[data-road="LM7.E"]', 'aria-valuetext'), 'closed', 'the slider of a road that the scenario closed has moved');
   assert.equal(await page.getAttribute('[data-road="LM6.E"]', 'aria-valuetext'), 'open');
   const all = await page.evaluate(() => Array.from({length: waymark.drive.count}, (_, i) => ({
@@ -86,7 +87,25 @@ test('sliders close and open roads, by mouse and by keys; buttons press commands
   assert.deepEqual(run.lines.slice(1), ['close LM7.E', 'open LM7.E', 'close LM7.E', 'open LM7.E', 'press Start1', 'pause', 'resume']);
   await run.end();
   await until(page, () => document.getElementById('live').textContent.includes('does not answer'));
+  assert.equal(await page.textContent('#spoken'), 'the simulation does not answer');
   await close();
+});
+
+test('what would act on a drive that is over acts no more, and says so', async (t) => {
+  const run = await simulation(t, '5', '0', '20');
+  const {page, close} = await open(`http://127.0.0.1:${run.port}/`);
+  await page.click('#tab-live');
+  await page.focus('[data-road="LM7.E"]');
+  run.release();
+  await until(page, () => !waymark.live);
+  assert.equal(await page.locator('#live-panel :is(button, input):enabled').count(), 0);
+  assert.ok((await page.textContent('#live-panel')).startsWith('The drive is over'));
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'live-panel', 'the keyboard keeps its place');
+  // A page that is opened now says the same.
+  const late = await open(`http://127.0.0.1:${run.port}/`);
+  await until(late.page, () => !waymark.live);
+  assert.equal(await late.page.textContent('#outcome'), '✓ arrived');
+  await late.close(), await close(), await run.end();
 });
 
 test('who looks back is left there while the drive goes on', async (t) => {

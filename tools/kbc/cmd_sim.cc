@@ -96,6 +96,27 @@ void hint_at_clock(const SimOptions& options, const sim::Summary& summary, Sessi
   session.remark("the driver seems to take orders from a broker, and they come by the clock; with `--speed 1` the drive keeps to it");
 }
 
+/// Drives to the end, or until an interrupt.
+void drive_on(sim::Drive& drive, std::optional<double> speed, const Session& session) {
+  Progress progress(session, "ticks");
+  const auto began = std::chrono::steady_clock::now();
+  while (!Interrupts::came() && drive.step()) {
+    progress.update(drive.summary().ticks);
+    if (speed) wait_until(began + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(drive.time_s() / *speed)));
+  }
+}
+
+/// Writes and prints how the drive ended; returns the exit code.
+int tell_ending(const SimOptions& options, const Scene& scene, const sim::Summary& summary, const sim::Recording& recording, Session& session,
+                diagnostics::Diagnostics& messages) {
+  const double scale = scene.labyrinth->scale;
+  if (!write_reports(options, recording, summary_json(summary, scale, scene.scenario.seed), session)) return kErrors;
+  if (!options.to_stdout()) session.print(print_summary(summary, scale, scene.scenario.limit_s));
+  hint_at_clock(options, summary, session);
+  if (options.expect) compare(summary, {*options.expect, options.allow}, messages);
+  return session.exit_code();
+}
+
 int drive(const SimOptions& options, const DriveGround& ground, const Scene& scene, Session& session, diagnostics::Diagnostics& messages) {
   const sim::Labyrinth& labyrinth = *scene.labyrinth;
   const Interrupts interrupts;   // before the trace is opened, so that an interrupt leaves no half of it behind
@@ -120,29 +141,20 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
     };
   }
   sim::Drive drive(labyrinth, *ground.knowledge, scene.scenario, how);
-  if (options.live) {
-    const int code = drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed.value_or(1.0), how.dt_us}, session);
-    if (code != kClean) return code;
-  } else {
-    Progress progress(session, "ticks");
-    const auto began = std::chrono::steady_clock::now();
-    while (!Interrupts::came() && drive.step()) {
-      progress.update(drive.summary().ticks);
-      if (options.speed) wait_until(began + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(drive.time_s() / *options.speed)));
+  const auto conclude = [&]() -> int {
+    if (helm != nullptr && helm->failure()) wire::report(*helm->failure(), {}, messages);
+    helm.reset();   // the driver ends before anything is written
+    if (traced && !trace.commit()) {
+      messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
+      return kErrors;
     }
-    if (Interrupts::came()) return kInterrupted;
+    return tell_ending(options, scene, drive.summary(), recording, session, messages);
+  };
+  if (options.live) {
+    return drive_live(drive, recording, labyrinth, ground.compiled->program, {*options.live, options.speed.value_or(1.0), how.dt_us}, conclude, session);
   }
-  if (helm != nullptr && helm->failure()) wire::report(*helm->failure(), {}, messages);
-  helm.reset();   // the driver ends before anything is written
-  if (traced && !trace.commit()) {
-    messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
-    return kErrors;
-  }
-  if (!write_reports(options, recording, summary_json(drive.summary(), labyrinth.scale, scene.scenario.seed), session)) return kErrors;
-  if (!options.to_stdout()) session.print(print_summary(drive.summary(), labyrinth.scale, scene.scenario.limit_s));
-  hint_at_clock(options, drive.summary(), session);
-  if (options.expect) compare(drive.summary(), {*options.expect, options.allow}, messages);
-  return session.exit_code();
+  drive_on(drive, options.speed, session);
+  return Interrupts::came() ? kInterrupted : conclude();
 }
 
 int run(const SimOptions& options, Session& session) {

@@ -42,7 +42,7 @@ void wait_until(Clock::time_point when) {
 }
 
 int drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
-                const program::Program& program, const LiveOptions& options, Session& session) {
+                const program::Program& program, const LiveOptions& options, const std::function<int()>& conclude, Session& session) {
   sim::LivePage page(recording);
   if (!page.start(options.port)) {
     session.report(diagnostics::Kind::kSimPortTaken, {fmt::format("{}", options.port)});
@@ -65,9 +65,11 @@ int drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::La
   }
   page.finish(recording);
   if (more) return kInterrupted;
+  const int code = conclude();
+  session.flush_output();   // with --quiet nothing follows that would
   session.remark("the drive is over; the page stays until Ctrl-C");
   wait_until(Clock::time_point::max());
-  return kClean;
+  return code;
 }
 
 }  // namespace kb::cli

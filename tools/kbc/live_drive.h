@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 
 #include "sim/drive/drive.h"
 #include "tools/kbc/support.h"
@@ -18,10 +19,10 @@ struct LiveOptions {
 /// Returns at that time, or on an interrupt.
 void wait_until(std::chrono::steady_clock::time_point when);
 
-/// Drives to the end and serves the page until the user interrupts (Ctrl-C, SIGTERM), even after the end of the drive. An interrupt during
-/// the drive breaks it off. The caller must hold an `Interrupts`. `recording` is the one that `drive` writes. kErrors if the port is not
-/// available (reported), kInterrupted if the drive has not come to its end.
+/// Drives to the end, calls `conclude`, which says how it ended, and serves the page until the user interrupts (Ctrl-C, SIGTERM). An interrupt
+/// during the drive breaks it off. The caller must hold an `Interrupts`. `recording` is the one that `drive` writes. kErrors if the port is
+/// not available (reported), kInterrupted if the drive has not come to its end, else what `conclude` returns.
 [[nodiscard]] int drive_live(sim::Drive& drive, const sim::Recording& recording, const sim::Labyrinth& labyrinth,
-                              const program::Program& program, const LiveOptions& options, Session& session);
+                              const program::Program& program, const LiveOptions& options, const std::function<int()>& conclude, Session& session);
 
 }  // namespace kb::cli

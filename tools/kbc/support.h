@@ -95,6 +95,8 @@ class Session {
 
   /// To standard output. A failure (a full disk, a closed pipe) is reported by `finish`.
   void print(std::string_view text);
+  /// Lets out at once what was printed; for a command that goes on for long.
+  void flush_output();
   /// A line to standard error without which the result cannot be used (the address of a page).
   void announce(std::string_view text);
   /// A line to standard error, unless --quiet ("wrote mission.kb.h").
@@ -132,7 +134,6 @@ class Session {
  private:
   class Outlet;
   void tell(std::string_view text);
-  void flush_output();
   bool write_all_or_none(const std::vector<OutputFile>& files);
   [[nodiscard]] std::unique_ptr<driver::Compilation> compile_from(const source::FileSystem& files, std::string_view path, const driver::Options& how);
   /// True (reported) if nothing can be compiled under this name, or with this library.

@@ -1,7 +1,8 @@
 // Cells by ticks, as in Table 1 of the paper: only cells that change. Columns are the ticks at which something changed, or
 // all ticks. Drawn as far as it is in sight.
 
-const kCellPx = 16, kHeadPx = 18;
+const kLeastPx = 16, kRoomyPx = 24, kHeadPx = 18;   // the height of a row: as small as it may be, and as large as a finger needs it
+const roomy = matchMedia('(max-width: 900px), (pointer: coarse)');
 
 class HistoryView {
   constructor(app) {
@@ -10,6 +11,8 @@ class HistoryView {
     this.byTurn = true;
     this.cells = [];
     this.left = 0;                     // the first column in sight
+    this.rowPx = kLeastPx;
+    this.roving = new Roving(byId('history-names'), 'button');
     for (const [id, turn] of [['by-turn', true], ['by-tick', false]]) onPress(byId(id), () => this.columns(turn));
     byId('width').addEventListener('input', () => this.show(this.app.frame));
     byId('history-facts').addEventListener('change', () => this.fill());
@@ -30,11 +33,15 @@ class HistoryView {
     const of = (kind) => (kind === kFact ? factsInOrder(drive) : drive.cells.filter((cell) => cell.kind === kind)).filter((cell) => drive.changes(cell));
     const groups = [of(kStrategy), of(kSatellite), facts ? of(kFact) : []];
     this.cells = groups.flat();
-    byId('history-names').replaceChildren(...groups.flatMap((group) => group.map((cell, i) => {
-      const button = onPress(make(i ? 'button' : 'button.first', {title: cell.name}, cell.name), () => this.app.choose({cell: cell.id}));
+    const names = byId('history-names'), focus = names.contains(document.activeElement) && document.activeElement.dataset.cell;
+    names.replaceChildren(...groups.flatMap((group) => group.map((cell, i) => {
+      const button = onPress(make(i ? 'button' : 'button.first', {title: cell.name}, cell.name), (event) => this.app.choose({cell: cell.id}, event));
       button.dataset.cell = cell.id;
       return button;
     })));
+    const again = focus && names.querySelector(`[data-cell="${focus}"]`);
+    if (again) again.focus({preventScroll: true});
+    this.roving.settle(again);
     this.show(this.app.frame);
   }
 
@@ -45,15 +52,22 @@ class HistoryView {
   click(event) {
     const box = this.canvas.getBoundingClientRect(), width = Number(byId('width').value);
     const column = this.left + Math.floor((event.clientX - box.left) / width);
-    const row = Math.floor((event.clientY - box.top - kHeadPx + this.scroll()) / kCellPx);
+    const row = Math.floor((event.clientY - box.top - kHeadPx + this.scroll()) / this.rowPx);
     if (column < this.count()) this.app.go(this.frameOf(column));
-    if (event.clientY - box.top > kHeadPx && this.cells[row]) this.app.choose({cell: this.cells[row].id});
+    if (event.clientY - box.top > kHeadPx && this.cells[row]) this.app.choose({cell: this.cells[row].id}, event);
   }
   scroll() { return this.box.scrollTop; }
+  /// Rows are as high as lets all of them be in sight.
+  fit() {
+    const fits = Math.floor((this.box.clientHeight - kHeadPx) / Math.max(1, this.cells.length));
+    this.rowPx = roomy.matches ? kRoomyPx : Math.min(kRoomyPx, Math.max(kLeastPx, fits));
+    this.box.style.setProperty('--cell-high', `${this.rowPx}px`);
+  }
 
   show(frame) {
     const ratio = window.devicePixelRatio || 1, width = this.canvas.parentElement.clientWidth, height = this.box.clientHeight;
     if (width < 10 || height < 10) return;
+    this.fit();
     this.canvas.style.height = `${height}px`;
     if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
       this.canvas.width = Math.round(width * ratio), this.canvas.height = Math.round(height * ratio);
@@ -67,8 +81,8 @@ class HistoryView {
     const paint = {high: colour('high'), zero: colour('zero'), low: colour('low'), card: colour('card'), ink: colour('ink'), soft: colour('faint'), line: colour('line')};
     const last = Math.min(this.count(), this.left + fits);
     this.cells.forEach((cell, row) => {
-      const y = kHeadPx + row * kCellPx - this.scroll();
-      if (y > height || y < kHeadPx - kCellPx) return;
+      const y = kHeadPx + row * this.rowPx - this.scroll();
+      if (y > height || y < kHeadPx - this.rowPx) return;
       for (let column = this.left; column < last; ++column) this.cell(c, paint, cell, this.frameOf(column), (column - this.left) * step, y, step);
     });
     this.head(c, paint, step, width, last);
@@ -78,9 +92,9 @@ class HistoryView {
   }
 
   cell(c, paint, cell, frame, x, y, step) {
-    const value = cell.steps.at(frame), gap = step > 5 ? 1 : 0, wide = step - gap, tall = kCellPx - 1;
+    const value = cell.steps.at(frame), gap = step > 5 ? 1 : 0, wide = step - gap, tall = this.rowPx - 1, base = y + tall / 2 + 4;
     c.fillStyle = paint.low, c.fillRect(x, y, wide, tall);
-    if (!Number.isFinite(value)) { c.fillStyle = paint.soft; if (step >= 9) c.fillText('?', x + wide / 2, y + 12); return; }
+    if (!Number.isFinite(value)) { c.fillStyle = paint.soft; if (step >= 9) c.fillText('?', x + wide / 2, base); return; }
     if (value <= -1) return;
     // Shaded by what is certain, and as high as it is: told apart without colours.
     const share = value >= 1 ? 1 : Math.max(0.12, (value + 1) / 2);
@@ -89,7 +103,7 @@ class HistoryView {
     if (step < 18) return;
     c.font = '10px system-ui, sans-serif', c.textAlign = 'center';
     c.fillStyle = share > 0.62 && value >= this.app.drive.firing ? paint.card : paint.ink;
-    c.fillText(value === 1 ? '1' : value.toFixed(1).replace('0.', '.').replace('-', '−').replace('.0', value === 0 ? '0' : '.0'), x + wide / 2, y + 11.5);
+    c.fillText(value === 1 ? '1' : value.toFixed(1).replace('0.', '.').replace('-', '−').replace('.0', value === 0 ? '0' : '.0'), x + wide / 2, base);
   }
 
   head(c, paint, step, width, last) {

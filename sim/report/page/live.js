@@ -61,16 +61,32 @@ class Live {
     }
   }
 
+  tell(state, spoken) {
+    if (byId('live').textContent === state) return;
+    set(byId('live'), state);
+    if (spoken) set(byId('spoken'), spoken);
+  }
+  /// What would act on the drive acts no more.
+  end() {
+    const panel = byId('live-panel'), within = panel.contains(document.activeElement);
+    this.app.live = false;
+    for (const one of panel.querySelectorAll('button, input')) one.disabled = true;
+    panel.prepend(make('p.over', {}, 'The drive is over: nothing acts on it any more.'));
+    if (within) panel.focus();         // a control that is disabled loses the focus
+  }
+
   async poll() {
     const drive = this.app.drive;
     try {
       const answer = await fetch(`${this.path}/frames?from=${drive.count}`, {cache: 'no-store'});
       const chunk = await answer.json(), atEnd = this.app.frame >= drive.count - 1;
-      set(byId('live'), chunk.over ? 'over' : '● live');
-      if (chunk.frames.count && drive.append(chunk.frames)) this.app.grown(atEnd), this.follow();
-      if (chunk.over) return void (this.app.live = false);
+      // How it ended may come when its last frames have come already.
+      const news = chunk.frames.count || chunk.over || chunk.frames.outcome !== drive.outcome;
+      if (news && drive.append(chunk.frames)) this.app.grown(atEnd), this.follow();
+      this.tell(chunk.over ? 'over' : '● live', chunk.over ? `the drive is over: ${drive.outcome}` : '');
+      if (chunk.over) return this.end();
     } catch {
-      set(byId('live'), '○ the simulation does not answer');
+      this.tell('○ the simulation does not answer', 'the simulation does not answer');
     }
     setTimeout(() => this.poll(), kPollMs);
   }

@@ -1,12 +1,16 @@
 // The rules as they fired, one row each; only the rows in sight are elements of the page.
 
-const kRowPx = 22;
+const kRowPx = 24;
 
 class LogView {
   constructor(app) {
     this.app = app;
     this.box = byId('log'), this.rows = byId('log-rows');
     this.current = -1;
+    this.roving = new Roving(this.rows, '.row', (key) => {
+      if (key === 'Home' || key === 'End') this.box.scrollTop = key === 'Home' ? 0 : this.box.scrollHeight;
+      this.draw();
+    });
     this.box.addEventListener('scroll', () => this.draw());
     new ResizeObserver(() => this.show(this.app.frame)).observe(this.box);
   }
@@ -36,19 +40,20 @@ class LogView {
     const key = `${first} ${last} ${frame} ${log.length}`;
     if (this.key === key) return;
     this.key = key;
-    const focus = document.activeElement && document.activeElement.dataset.entry;
+    const focus = this.rows.contains(document.activeElement) ? document.activeElement.dataset.entry : undefined;
     const rows = [];
     for (let i = first; i < last; ++i) rows.push(this.row(log[i], i, frame));
     this.rows.replaceChildren(...rows);
     if (!log.length) this.rows.replaceChildren(make('li.empty', {}, 'No rule has fired.'));
     const again = focus !== undefined && this.rows.querySelector(`[data-entry="${focus}"]`);
-    if (again) again.focus({preventScroll: true});
+    if (focus !== undefined) (again || this.box).focus({preventScroll: true});   // its row may be far away by now
+    this.roving.settle(again || this.rows.querySelector(`[data-entry="${this.current}"]`));
   }
   row(entry, i, frame) {
     const drive = this.app.drive, rule = drive.rules[entry.rule], now = entry.first <= frame && frame < entry.last;
     const button = onPress(make(`button.row${entry.first > frame ? '.future' : now ? '.current' : ''}`, {title: `${rule.name}\n${rule.at}`},
       make('span.when', {}, clock(drive.t[entry.first])), make('span.name', {}, rule.name), make('span.level', {}, drive.levels[rule.level] || '')),
-    () => { this.app.go(entry.first); this.app.choose({rule: entry.rule}); });
+    (event) => { this.app.go(entry.first); this.app.choose({rule: entry.rule}, event); });
     button.dataset.entry = i;
     button.style.top = `${i * kRowPx}px`;
     return make('li', {}, button);

@@ -1,5 +1,11 @@
 // Puts the page together: one drive, what is shown of it, and what is chosen.
 
+/// Finds an element again, or the one that has come in its place: of the same cell, or of the same firing.
+function finder(element) {
+  const {cell, entry} = element.dataset, box = element.parentElement && element.parentElement.closest('[id]');
+  return () => (element.isConnected ? element : box && box.querySelector(cell !== undefined ? `[data-cell="${cell}"]` : `[data-entry="${entry}"]`));
+}
+
 class App {
   constructor(data) {
     this.drive = new Drive(data.drive);
@@ -49,12 +55,29 @@ class App {
     this.shown = false;
     this.show(this.frame, this.fraction);
   }
-  /// A cell or a rule to be explained; null: none.
-  choose(what) {
-    this.chosen = what && (what.cell === undefined || what.cell >= 0) ? what : null;
-    if (this.chosen) this.tab('why');
-    else this.tab('log');
+  /// To a frame that a button names.
+  jump(frame) { this.go(frame), this.speak(); }
+  /// A cell or a rule to be explained; `event` is the press that asks for it. The keyboard goes to the explanation.
+  choose(what, event) {
+    if (what.cell < 0) return this.close();
+    const focus = document.activeElement, byKey = !!event && event.detail === 0;
+    if (!byId('why-panel').contains(focus)) this.asked = byKey ? finder(focus) : null;
+    this.chosen = what;
+    this.tab('why');
+    this.why.last = 0;               // at once, also while it plays
     this.refresh();
+    if (byKey) this.why.title.focus();
+    set(byId('spoken'), this.why.inShort());
+  }
+  /// Nothing is explained any more. The keyboard goes back to where it asked.
+  close() {
+    const focus = document.activeElement, within = byId('why-panel').contains(focus) || focus === byId('tab-why');
+    this.chosen = null;
+    if (!byId('why-panel').hidden) this.tab('log');
+    this.refresh();
+    if (!within) return;
+    const asked = this.asked && this.asked();
+    (asked && asked.offsetParent ? asked : byId('tab-log')).focus();
   }
   /// More frames have come; who looks at the end goes on looking at it.
   grown(atEnd) {
@@ -66,7 +89,8 @@ class App {
   }
   speak() {
     const drive = this.drive, frame = this.frame;
-    if (drive.count) set(byId('spoken'), `tick ${frame + 1}, ${drive.strategyName(frame) || 'no strategy'}, ${drive.legs.length ? `leg ${drive.leg.at(frame) || 'none'}, ` : ''}${drive.status.at(frame)}`);
+    const cell = this.chosen && drive.cells[this.chosen.cell], chosen = cell ? `, ${cell.name} ${certainty(cell.steps.at(frame))}` : '';
+    if (drive.count) set(byId('spoken'), `tick ${frame + 1}, ${drive.strategyName(frame) || 'no strategy'}, ${drive.legs.length ? `leg ${drive.leg.at(frame) || 'none'}, ` : ''}${drive.status.at(frame)}${chosen}`);
     if (drive.picture.landmarks.length) byId('floor').setAttribute('aria-label', `The labyrinth from above at ${clock(drive.t[frame])}: ${drive.strategyName(frame) || 'no strategy'}, at ${(drive.x[frame] || 0).toFixed(2)} m east, ${(drive.y[frame] || 0).toFixed(2)} m north`);
   }
 
@@ -78,7 +102,15 @@ class App {
       this.floor.follow(on), press('follow', on), press('fit', !on);
     });
     onPress(byId('sensors'), () => { this.floor.sensing = !this.floor.sensing, press('sensors', this.floor.sensing), this.floor.redraw(); });
+    onPress(byId('enlarge'), () => this.floor.nearer(kNearer)), onPress(byId('reduce'), () => this.floor.nearer(1 / kNearer));
     onPress(byId('help-open'), () => byId('help').showModal());
+    for (const link of document.querySelectorAll('.skips a')) {
+      link.addEventListener('click', (event) => {
+        event.preventDefault();      // the address may name a tick
+        const to = link.hash === '#tab-log' ? '.tabs [aria-selected="true"]' : link.hash;
+        document.querySelector(to).focus();
+      });
+    }
     for (const id of ['all-facts', 'all-satellites']) byId(id).addEventListener('change', () => this.refresh());
   }
   tabs() {

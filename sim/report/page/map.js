@@ -3,6 +3,7 @@
 const kObstacle = 0, kClosedRoad = 1, kLostMarking = 2, kUnsafeCrossing = 3;
 const kAzimuthRoad = 2;
 const kOutOfRange = 4;
+const kNearer = 1.25, kPushPx = 40;     // a press of a key or a button enlarges and moves by as much
 const dark = matchMedia('(prefers-color-scheme: dark)');
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
 const lookColour = (kind) => (dark.matches ? kind.dark : kind.light);
@@ -58,7 +59,24 @@ class FloorView {
       from = {x: event.clientX, y: event.clientY};
       this.redraw();
     });
+    this.canvas.addEventListener('mousedown', (event) => event.preventDefault());   // the mouse leaves the focus, and with it the keys, where they are
+    this.canvas.addEventListener('keydown', (event) => this.key(event));
     for (const end of ['pointerup', 'pointercancel']) this.canvas.addEventListener(end, () => { from = null; });
+  }
+  key(event) {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const far = kPushPx * (event.shiftKey ? 4 : 1), push = (x, y) => { this.shiftX += x, this.shiftY += y, this.redraw(); };
+    const nearer = () => this.nearer(kNearer), farther = () => this.nearer(1 / kNearer);
+    const act = {ArrowLeft: () => push(far, 0), ArrowRight: () => push(-far, 0), ArrowUp: () => push(0, far), ArrowDown: () => push(0, -far),
+      '+': nearer, '=': nearer, '-': farther, '_': farther, 0: () => byId('fit').click()}[event.key];
+    if (!act) return;
+    event.preventDefault(), event.stopPropagation();
+    act();
+  }
+  /// About the middle of the picture.
+  nearer(factor) {
+    const box = this.canvas.getBoundingClientRect();
+    this.enlarge(factor, box.width / 2, box.height / 2);
   }
   enlarge(factor, x, y) {
     const zoom = Math.min(20, Math.max(0.5, this.zoom * factor)), real = zoom / this.zoom;

@@ -23,11 +23,36 @@ function set(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/// A list of buttons as one stop of the tab key: the arrows up and down, Home and End move in it.
+class Roving {
+  /// `which` selects the buttons. A list of which only a part is there gets `follow(key)`, before Home and End and after the arrows.
+  constructor(box, which, follow = () => {}) {
+    this.box = box, this.which = which, this.follow = follow;
+    box.addEventListener('focusin', (event) => { if (event.target.matches(which)) this.settle(event.target); });
+    box.addEventListener('keydown', (event) => this.key(event));
+  }
+  buttons() { return [...this.box.querySelectorAll(this.which)].filter((one) => !one.closest('[hidden]')); }
+  /// Makes `stop` the one that the tab key finds; else that of before, else the first.
+  settle(stop) {
+    const all = this.buttons(), one = stop || all.find((button) => button.tabIndex === 0) || all[0];
+    for (const button of this.box.querySelectorAll(this.which)) button.tabIndex = button === one ? 0 : -1;
+  }
+  key(event) {
+    const by = {ArrowUp: -1, ArrowDown: 1, Home: -Infinity, End: Infinity}[event.key];
+    if (!by || event.ctrlKey || event.altKey || event.metaKey || !event.target.matches(this.which)) return;
+    event.preventDefault(), event.stopPropagation();
+    if (!Number.isFinite(by)) this.follow(event.key);
+    const all = this.buttons(), to = Math.min(all.length - 1, Math.max(0, all.indexOf(event.target) + by));
+    if (all.length) all[to].focus();
+    if (Number.isFinite(by)) this.follow(event.key);
+  }
+}
+
 class NowView {
   constructor(app) {
     this.app = app;
-    onPress(byId('strategy'), () => this.app.choose({cell: this.app.drive.strategy.at(this.app.frame)}));
-    onPress(byId('note'), () => { const note = this.last(); if (note) this.app.go(note.frame); });
+    onPress(byId('strategy'), (event) => this.app.choose({cell: this.app.drive.strategy.at(this.app.frame)}, event));
+    onPress(byId('note'), () => { const note = this.last(); if (note) this.app.jump(note.frame); });
   }
   last() {
     const notes = this.app.drive.notes;
@@ -53,7 +78,7 @@ class NowView {
     const words = !name ? '–' : leg ? `${leg.from} → ${leg.to}` : name, key = words + (leg && leg.detour);
     if (place.dataset.key === key) return;
     place.dataset.key = key, place.title = name;
-    place.replaceChildren(words, ...(leg && leg.detour ? [make('span.tag', {}, 'detour')] : []));
+    place.replaceChildren(make('span.ends', {}, words), ...(leg && leg.detour ? [make('span.tag', {}, 'detour')] : []));
   }
 }
 
@@ -70,18 +95,20 @@ class FactsView {
     for (const cell of factsInOrder(app.drive)) {
       const sign = make('span.sign', {'aria-hidden': 'true'}), fill = make('i'), value = make('span.value');
       const button = onPress(make('button.fact', {title: cell.name}, sign, make('span.name', {}, cell.name), make('span.bar', {'aria-hidden': 'true'}, fill), value),
-        () => app.choose({cell: cell.id}));
+        (event) => app.choose({cell: cell.id}, event));
       button.dataset.cell = cell.id;
       const item = make('li', {}, button);
       byId('facts').append(item);
       this.rows.push({cell, item, button, sign, fill, value, key: ''});
     }
+    this.roving = new Roving(byId('facts'), '.fact');
     byId('all-facts').addEventListener('change', () => this.filter());
     this.filter();
   }
   filter() {
     const all = byId('all-facts').checked || !this.rows.some((row) => this.app.drive.changes(row.cell));
     for (const row of this.rows) row.item.hidden = !all && !this.app.drive.changes(row.cell);
+    this.roving.settle();
   }
   show(frame) {
     const drive = this.app.drive;
@@ -114,7 +141,7 @@ class SatellitesView {
       if (!here.length) return;
       const list = make('ul'), group = make('div', {}, make('h3', {}, name), list);
       for (const cell of here) {
-        const chip = onPress(make('button.sat', {title: cell.name}, make('span.name', {}, cell.name)), () => app.choose({cell: cell.id}));
+        const chip = onPress(make('button.sat', {title: cell.name}, make('span.name', {}, cell.name)), (event) => app.choose({cell: cell.id}, event));
         chip.dataset.cell = cell.id;
         const item = make('li', {}, chip);
         list.append(item);
@@ -122,6 +149,7 @@ class SatellitesView {
       }
       byId('satellites').append(group);
     });
+    this.roving = new Roving(byId('satellites'), '.sat');
     byId('all-satellites').addEventListener('change', () => this.filter());
     this.filter();
   }
@@ -129,6 +157,7 @@ class SatellitesView {
     const all = byId('all-satellites').checked;
     for (const one of this.chips) one.item.hidden = !all && !this.app.drive.changes(one.cell);
     for (const one of this.chips) one.group.hidden = !this.chips.some((other) => other.group === one.group && !other.item.hidden);
+    this.roving.settle();
   }
   show(frame) {
     const drive = this.app.drive;

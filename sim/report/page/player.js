@@ -15,8 +15,20 @@ class Player {
     this.bar.addEventListener('input', () => this.app.go(Number(this.bar.value)));
     byId('speed').addEventListener('change', () => { this.speed = Number(byId('speed').value); });
     document.addEventListener('keydown', (event) => this.key(event));
+    this.letters();
     new ResizeObserver(() => this.drawBands()).observe(this.bands);
+    // On a small page the controls lie over its end; what has the focus must not be below them.
+    const controls = byId('transport');
+    new ResizeObserver(() => document.documentElement.style.setProperty('--bar', `${controls.offsetHeight}px`)).observe(controls);
     dark.addEventListener('change', () => this.drawBands());
+  }
+
+  /// Who speaks to the machine, or hits keys by chance, can do without keys that are letters or signs. The browser remembers that
+  /// if it may.
+  letters() {
+    const box = byId('letters'), kKey = 'waymark.letters';
+    try { box.checked = localStorage.getItem(kKey) !== 'off'; } catch { /* nothing is remembered */ }
+    box.addEventListener('change', () => { try { localStorage.setItem(kKey, box.checked ? 'on' : 'off'); } catch { /* nor here */ } });
   }
 
   last() { return Math.max(0, this.app.drive.count - 1); }
@@ -49,6 +61,7 @@ class Player {
     this.playing = false;
     this.button();
     this.app.why.show(this.app.frame);
+    this.tell(this.app.frame);
     this.app.speak();
   }
   button() {
@@ -76,12 +89,14 @@ class Player {
     if (event.ctrlKey || event.altKey || event.metaKey || byId('help').open) return;
     const where = event.target, pressed = event.key;
     if (pressed === ' ' && (where.tagName === 'BUTTON' || where.type === 'checkbox')) return;   // it presses what has the focus
+    if (pressed.length === 1 && pressed !== ' ' && !byId('letters').checked) return;
+    if (['Home', 'End'].includes(pressed) && where.closest('.scroll')) return;   // to its own beginning and end
     if (where.tagName === 'SELECT' || (where.type === 'range' && where !== this.bar)) return;
     const far = event.shiftKey ? 10 : 1;
     const keys = {
       ' ': () => this.toggle(), ArrowLeft: () => this.step(-far), ArrowRight: () => this.step(far), Home: () => this.step(-Infinity), End: () => this.step(Infinity),
       '+': () => this.faster(1), '=': () => this.faster(1), '-': () => this.faster(-1), '_': () => this.faster(-1), ',': () => this.turn(false), '.': () => this.turn(true),
-      '?': () => byId('help').showModal(), f: () => byId('follow').click(), s: () => byId('sensors').click(), Escape: () => this.app.choose(null),
+      '?': () => byId('help').showModal(), f: () => byId('follow').click(), s: () => byId('sensors').click(), Escape: () => this.app.close(),
     };
     const act = keys[pressed] || keys[pressed.toLowerCase()];
     if (!act || (where.getAttribute('role') === 'tab' && pressed.startsWith('Arrow'))) return;
@@ -94,12 +109,17 @@ class Player {
     if (!this.playing) this.time = drive.t[frame] || 0;
     this.bar.max = this.last();
     if (Number(this.bar.value) !== frame) this.bar.value = frame;
-    const strategy = drive.strategyName(frame) || 'no strategy';
-    this.bar.setAttribute('aria-valuetext', `tick ${frame + 1} of ${drive.count}, ${clock(drive.t[frame])}, ${strategy}`);
+    if (!this.playing) this.tell(frame);
     const key = `${frame} ${drive.count}`;
     if (key === this.said) return;
     this.said = key;
     byId('clock').replaceChildren(make('b', {}, clock(drive.t[frame])), ` / ${clock(drive.t[this.last()])}`, make('small', {}, drive.count ? `tick ${frame + 1} of ${drive.count}` : 'no ticks'));
+  }
+
+  /// What the bar says to who has the focus on it; not ten times a second.
+  tell(frame) {
+    const drive = this.app.drive;
+    this.bar.setAttribute('aria-valuetext', `tick ${frame + 1} of ${drive.count}, ${clock(drive.t[frame])}, ${drive.strategyName(frame) || 'no strategy'}`);
   }
 
   /// Which kind of strategy ran when, in the colours of the track, each kind with its own stroke; notes as flags.

@@ -5,7 +5,7 @@ const kMostRaisers = 4;
 class WhyView {
   constructor(app) {
     this.app = app, this.drive = app.drive, this.conditions = app.conditions;
-    this.panel = byId('why-panel');
+    this.panel = byId('why-panel'), this.title = byId('why-title'), this.body = byId('why-body');
     this.key = '', this.last = 0;
   }
   show(frame) {
@@ -16,26 +16,42 @@ class WhyView {
     if (this.app.player.playing && chosen && performance.now() - this.last < 250) return;
     this.key = key, this.last = performance.now();
     if (!chosen || !this.drive.count) {
-      this.panel.replaceChildren(make('p.empty', {}, 'Choose a fact, a satellite, a strategy or a rule: here stands why it is so at this tick.'));
+      this.fill('', [make('p.empty', {}, 'Choose a fact, a satellite, a strategy or a rule: here stands why it is so at this tick.')]);
     } else if (chosen.rule !== undefined) {
-      this.panel.replaceChildren(...this.rule(this.drive.rules[chosen.rule], frame));
+      this.fill(this.drive.rules[chosen.rule].name, this.rule(this.drive.rules[chosen.rule], frame));
     } else {
-      this.panel.replaceChildren(...this.cell(this.drive.cells[chosen.cell], frame));
+      this.fill(this.drive.cells[chosen.cell].name, this.cell(this.drive.cells[chosen.cell], frame));
     }
+  }
+  /// Puts a new explanation in the place of the old one. The focus stays on the button that says the same, or goes to the title:
+  /// a button that is taken away would leave it at the beginning of the page.
+  fill(title, parts) {
+    const named = (button) => button.getAttribute('aria-label') || button.textContent;
+    const alike = (one) => [...this.body.querySelectorAll('button')].filter((button) => named(button) === named(one));
+    const old = this.body.contains(document.activeElement) ? document.activeElement : null, place = old ? alike(old).indexOf(old) : -1;
+    set(this.title, title), this.title.hidden = !title;
+    this.body.replaceChildren(...parts);
+    if (!old) return;
+    const again = alike(old)[place];
+    (again && !again.disabled ? again : this.title).focus({preventScroll: true});
+  }
+  /// The explanation in a breath, for who does not see it.
+  inShort() {
+    return `${this.title.textContent}: ${[...this.body.querySelectorAll(':scope > p')].slice(0, 2).map((p) => p.textContent.replace(/[●○◎✓✗] ?/g, '')).join('; ')}`;
   }
 
   tick(frame) { return `tick ${frame + 1} (${clock(this.drive.t[frame])})`; }
   jump(label, frame) {
-    const button = onPress(make('button', {}, label), () => this.app.go(frame));
+    const button = onPress(make('button', {}, label), () => this.app.jump(frame));
     button.disabled = frame < 0;
     return button;
   }
-  name(cell) { return onPress(make('button.link', {}, cell.name), () => this.app.choose({cell: cell.id})); }
+  name(cell) { return onPress(make('button.link', {}, cell.name), (event) => this.app.choose({cell: cell.id}, event)); }
 
   cell(cell, frame) {
     const words = {[kFact]: cell.command ? 'command' : 'fact', [kSatellite]: 'satellite', [kStrategy]: 'strategy'}[cell.kind];
     const value = cell.steps.at(frame), since = cell.steps.since(frame);
-    const parts = [make('h3', {}, cell.name), make('p', {}, make('span.is', {}, `${words}, `), make('span.large', {'data-value': certainty(value)}, certainty(value)),
+    const parts = [make('p', {}, make('span.is', {}, `${words}, `), make('span.large', {'data-value': certainty(value)}, certainty(value)),
       since < 0 ? ' since the start' : since === frame ? ' from this tick on' : ` since ${this.tick(since)}, for ${duration(+(this.drive.t[frame] - this.drive.t[since]).toFixed(3))}`)];
     if (since >= 0) {
       parts.push(make('div.jumps', {}, this.jump('◂ when it became so', since), this.jump('next change ▸', cell.steps.next(frame))));
@@ -94,7 +110,7 @@ class WhyView {
 
   /// A rule with its place, its effect, and its condition as it was at a frame.
   box(rule, frame, effect) {
-    const head = make('p', {}, onPress(make('button.link', {}, rule.name), () => { this.app.choose({rule: rule.id}); }), make('span.is', {}, ` at ${this.drive.levels[rule.level] ?? '?'}`));
+    const head = make('p', {}, onPress(make('button.link', {}, rule.name), (event) => this.app.choose({rule: rule.id}, event)), make('span.is', {}, ` at ${this.drive.levels[rule.level] ?? '?'}`));
     const box = make('div.rule-box', {}, head);
     if (effect) box.append(make('p', {}, 'then ', make('code', {}, effect)));
     if (rule.condition >= 0) box.append(make('ul.tree', {'aria-label': 'Conditions'}, this.tree(rule.condition, frame, rule.level, true)));
@@ -104,7 +120,7 @@ class WhyView {
 
   rule(rule, frame) {
     const drive = this.drive, fires = drive.firedAt(rule, frame), last = drive.lastFiring(rule, frame), next = drive.nextFiring(rule, frame);
-    const parts = [make('h3', {}, rule.name), make('p.at', {}, `at ${drive.levels[rule.level] ?? '?'}${rule.eachTick ? ', fires while it holds' : ', fires when it becomes true'}`)];
+    const parts = [make('p.at', {}, `at ${drive.levels[rule.level] ?? '?'}${rule.eachTick ? ', fires while it holds' : ', fires when it becomes true'}`)];
     parts.push(make('p', {}, make('b', {}, fires ? '● fired at this tick' : last < 0 ? '○ has not fired yet' : `○ not now; last fired at ${this.tick(last)}`)));
     parts.push(make('div.jumps', {}, this.jump('◂ last time', fires ? drive.lastFiring(rule, frame - 1) : last), this.jump('next time ▸', next)));
     if (rule.condition >= 0) {
@@ -153,7 +169,7 @@ class WhyView {
     const [op, what] = this.drive.conditions[index];
     if (![kIs, kSeen, kEvent, kLost].includes(op)) return [];
     const cell = this.drive.cells[what], value = this.conditions.valueFor(what, frame, level);
-    const link = onPress(make('button.link', {title: `Why ${cell.name}?`, 'aria-label': `Why ${cell.name}?`}, certainty(value)), () => this.app.choose({cell: cell.id}));
+    const link = onPress(make('button.link', {title: `Why ${cell.name}?`, 'aria-label': `Why ${cell.name}?`}, certainty(value)), (event) => this.app.choose({cell: cell.id}, event));
     return [make('span.is', {}, ': '), link];
   }
 }
