@@ -29,6 +29,14 @@ std::string hexadecimal(std::uint32_t value, std::size_t least_digits) {
 
 std::string point_name(std::string_view text) { return "U+" + hexadecimal(source::code_point(text).value, 4); }
 
+/// `#include "map.kb"`: in this language a comment.
+bool is_include(std::string_view comment) {
+  constexpr std::string_view kInclude = "#include";
+  const std::string_view rest = comment.substr(std::min(kInclude.size(), comment.size()));
+  const std::string_view path = source::trimmed(rest);
+  return comment.starts_with(kInclude) && (path.starts_with('"') || path.starts_with('<'));
+}
+
 /*!include:re2c "unicode_categories.re" */
 /*!re2c
   re2c:api = default;
@@ -49,7 +57,8 @@ std::string point_name(std::string_view text) { return "U+" + hexadecimal(source
   scalar = [\x80-\ud7ff\ue000-\U0010ffff];
   control = [\x01-\x08\x0b-\x1f\x7f-\x9f];
   direction = [\u202a-\u202e\u2066-\u2069];
-  foreign_space = [\u00a0\u1680\u2000-\u200b\u2028\u2029\u202f\u205f\u2060\u3000\ufeff];
+  foreign_space = [\u00a0\u1680\u2000-\u200a\u2028\u2029\u202f\u205f\u3000];
+  no_width = [\u00ad\u200b-\u200f\u2060\ufeff];
   foreign_quote = ['\u2018-\u201f\u00ab\u00bb];
   plain = ([\t\x20-\x21\x23-\x7e] | scalar) \ control \ direction;
 */
@@ -77,8 +86,13 @@ class Scanner {
   Scan run() {
     const std::string_view bytes = std::string_view(text_).substr(0, text_.size() - 1);
     const std::size_t lone = bytes.find('\n') == std::string_view::npos ? source::find_lone_return(bytes) : std::string_view::npos;
+    const std::string_view other = source::other_format(bytes);
     if (source::is_utf16(bytes)) {
       error(Kind::kUtf16, {file_, 0, 2});
+    } else if (!other.empty()) {
+      error(Kind::kNotText, {file_, 0, 2}, std::string(other));
+    } else if (const std::size_t nul = bytes.find('\0'); lone != std::string_view::npos && nul < bytes.size()) {
+      error(Kind::kNulByte, {file_, static_cast<std::uint32_t>(nul), static_cast<std::uint32_t>(nul + 1)});
     } else if (lone != std::string_view::npos) {   // no line of the file ends, so a comment would take in all that follows
       lone_return(first_ + lone);
     } else {
@@ -98,6 +112,7 @@ class Scanner {
   void string();
   void comment();
   void foreign_comment(bool block);
+  bool foreign_quote();
   void identifier();
   void number();
 
@@ -151,6 +166,17 @@ class Scanner {
     const bool name = count > 0 && tokens.back().kind == TokenKind::kIdentifier;
     const bool field = count > 1 && tokens[count - 2].kind == TokenKind::kDot;
     return name || field ? TokenKind::kTwoWay : TokenKind::kMinus;
+  }
+  /// Whether the next token begins an effect: the last of the words that a rule is made of was `then`.
+  [[nodiscard]] bool in_effects() const {
+    constexpr std::size_t kFarthest = 64;   // tokens that are looked at
+    const std::vector<Token>& tokens = out_.tokens;
+    const bool begins = !tokens.empty() && (tokens.back().kind == TokenKind::kThen || tokens.back().kind == TokenKind::kComma);
+    const auto first = tokens.rbegin(), last = first + static_cast<std::ptrdiff_t>(std::min<std::size_t>(tokens.size(), kFarthest));
+    const auto word = std::find_if(first, last, [](const Token& token) {
+      return token.kind == TokenKind::kThen || token.kind == TokenKind::kWhen || token.kind == TokenKind::kWhile || begins_statement(token.kind);
+    });
+    return begins && word != last && word->kind == TokenKind::kThen;
   }
   /// Only the first one of a file is reported.
   bool lone_return(const unsigned char* from) {
@@ -228,12 +254,12 @@ bool Scanner::next() {
 
     "&" | "&&"           { return foreign(TokenKind::kAnd); }
     "|" | "||"           { return foreign(TokenKind::kOr); }
-    "!"                  { return foreign(TokenKind::kNot); }
+    "!"                  { return foreign(in_effects() ? TokenKind::kMinus : TokenKind::kNot); }
     "=>"                 { return token(TokenKind::kFatArrow); }
     "=="                 { return token(TokenKind::kEqualEqual); }
     "!=" | "<>"          { return token(TokenKind::kNotEqual); }
     "<" | "<=" | ">="    { return token(TokenKind::kComparison); }
-    [\u2192\u21d2]       { return foreign(TokenKind::kArrow); }
+    [\u2192\u21d2] | [\u2010-\u2015\u2212] ">" { return foreign(TokenKind::kArrow); }   // a text editor makes one dash of two
     ":="                 { return foreign(TokenKind::kEqual); }
     [\u2013\u2014]       { return foreign(dash()); }
     [\u2010-\u2012\u2015\u2212\ufe63\uff0d] { return foreign(TokenKind::kMinus); }
@@ -259,8 +285,9 @@ bool Scanner::next() {
     "\r"                 { return lone_return(begin_); }
     control              { return bad_text(Kind::kControlCharacter, begin_); }
     direction            { return bad_text(Kind::kDirectionControl, begin_); }
+    no_width             { return bad_text(Kind::kNoWidth, begin_); }
     foreign_space        { return bad_text(Kind::kForeignSpace, begin_); }
-    foreign_quote        { return bad_text(Kind::kForeignQuote, begin_); }
+    foreign_quote        { return foreign_quote(); }
     scalar | [\x21-\x7e] { return bad_text(Kind::kUnknownCharacter, begin_); }
     *                    { return bad_text(Kind::kBytesNotUtf8, begin_); }
   */
@@ -291,6 +318,7 @@ void Scanner::string() {
 
 void Scanner::comment() {
   text_to_line_end(false);
+  if (is_include(text())) error(Kind::kIncludeComment, span(), std::string(text()), {}, true);
   if (keep_comments_) token(TokenKind::kComment);
 }
 
@@ -302,6 +330,19 @@ void Scanner::foreign_comment(bool block) {
   }
   const auto end = text_.find("*/", static_cast<std::size_t>(cursor_ - first_));
   cursor_ = end == std::string::npos ? limit_ - 1 : first_ + end + 2;
+}
+
+// `import 'map.kb'`: the mark and what it encloses are one mistake. Elsewhere names are meant, and each mark is one.
+bool Scanner::foreign_quote() {
+  constexpr std::string_view kMarks = "'\"";
+  const bool import = !out_.tokens.empty() && out_.tokens.back().kind == TokenKind::kImport;
+  const std::size_t begin = static_cast<std::size_t>(cursor_ - first_), end = std::min(text_.find_first_of("\r\n#", begin), text_.size());
+  std::string_view path = source::trimmed(std::string_view(text_).substr(begin, end - begin));
+  while (!path.empty() && (kMarks.find(path.back()) != std::string_view::npos || static_cast<unsigned char>(path.back()) >= 0x80)) path.remove_suffix(1);
+  if (!import || path.empty()) return bad_text(Kind::kForeignQuote, begin_);
+  cursor_ = first_ + end;
+  while (cursor_[-1] == ' ' || cursor_[-1] == '\t') --cursor_;
+  return error(Kind::kForeignQuotes, span(), std::string(text()), std::string(path));
 }
 
 void Scanner::identifier() {

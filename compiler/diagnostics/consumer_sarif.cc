@@ -29,7 +29,7 @@ Json rule(Kind kind) {
   const std::string help(explanation(kind));
   Json result = {{"id", code_text(kind)},
                  {"name", about.name},
-                 {"shortDescription", text(about.text)},
+                 {"shortDescription", text(general_text(kind))},
                  {"defaultConfiguration", {{"level", word(about.severity)}}}};
   if (!help.empty()) result["help"] = {{"text", help}, {"markdown", help}};
   return result;

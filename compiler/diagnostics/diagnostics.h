@@ -56,6 +56,8 @@ struct KindInfo {
 [[nodiscard]] std::vector<std::string_view> flags();
 /// "KB0301".
 [[nodiscard]] std::string code_text(Kind kind);
+/// What the message says with nothing filled in, for people: `A is declared twice`, a letter for each name, `...` for words.
+[[nodiscard]] std::string general_text(Kind kind);
 /// The long explanation of an error or warning (Markdown, with a wrong and a right example); empty for notes.
 [[nodiscard]] std::string_view explanation(Kind kind);
 

@@ -39,6 +39,32 @@ constexpr Family kFamilies[] = {
 
 }  // namespace
 
+std::string general_text(Kind kind) {
+  const std::string_view text = info(kind).text;
+  std::string out;
+  std::vector<std::string> letters;   // what the placeholders in code are called, by number
+  std::size_t automatic = 0, named = 0;
+  bool code = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    code = code != (text[at] == '`');
+    const bool brace = text[at] == '{' || text[at] == '}';
+    const bool placeholder = text[at] == '{' && at + 1 < text.size() && text[at + 1] != '{';
+    if (!placeholder) {
+      out += text[at];
+      at += brace ? 1 : 0;   // it is written twice
+      continue;
+    }
+    const std::size_t end = text.find('}', at);
+    const std::size_t number = end == at + 1 ? automatic++ : static_cast<std::size_t>(text[at + 1] - '0');
+    letters.resize(std::max(letters.size(), number + 1));
+    if (code && letters[number].empty()) letters[number] = static_cast<char>('A' + named++);
+    if (code) out += letters[number];
+    else if (!out.ends_with("...")) out += "...";   // one stand-in for words that follow each other
+    at = end;
+  }
+  return out;
+}
+
 std::string_view explanation(Kind kind) {
   if (info(kind).code == 0) return {};
   const std::string title = "== " + code_text(kind) + "\n";
@@ -59,7 +85,7 @@ std::string print_markdown() {
     const Family* family = nullptr;
     for (; next != std::end(kFamilies) && about.code >= next->first; ++next) family = next;
     if (family != nullptr) fmt::format_to(std::back_inserter(out), "\n## {}\n", family->title);
-    fmt::format_to(std::back_inserter(out), "\n### {}\n\n**{}**: {}\n", code_text(kind), word(about.severity), about.text);
+    fmt::format_to(std::back_inserter(out), "\n### {}\n\n**{}**: {}\n", code_text(kind), word(about.severity), general_text(kind));
     if (!about.flag.empty()) fmt::format_to(std::back_inserter(out), "\nFlag: `-W{}`\n", about.flag);
     const std::string_view text = explanation(kind);
     if (!text.empty()) fmt::format_to(std::back_inserter(out), "\n{}\n", text);
@@ -72,7 +98,7 @@ std::string print_list() {
   for (const Kind kind : coded_kinds()) {
     const KindInfo& about = info(kind);
     const std::string flag = about.flag.empty() ? "" : fmt::format("  [-W{}]", about.flag);
-    fmt::format_to(std::back_inserter(out), "{}  {:<7}  {}{}\n", code_text(kind), word(about.severity), about.text, flag);
+    fmt::format_to(std::back_inserter(out), "{}  {:<7}  {}{}\n", code_text(kind), word(about.severity), general_text(kind), flag);
   }
   return out;
 }

@@ -21,7 +21,7 @@ constexpr Kind kOfNames[] = {
     Kind::kBareMember, Kind::kEventOfNonFact, Kind::kWholeGroup, Kind::kNotACell, Kind::kSatOfSatellite, Kind::kBinderTwice, Kind::kEventOfGroup,
     Kind::kLandmarkTwice, Kind::kRoadUnknownLandmark, Kind::kUnknownMap, Kind::kUnknownCommand, Kind::kNotACommand,
     Kind::kUnknownLandmark, Kind::kNotALandmark, Kind::kUnknownRoute,
-    Kind::kUnknownLevel, Kind::kWriteToFact, Kind::kWriteToStrategy, Kind::kWriteWholeGroup, Kind::kValueWithUnit,
+    Kind::kUnknownLevel, Kind::kWriteToFact, Kind::kWriteToStrategy, Kind::kWriteToLandmark, Kind::kWriteToCommand, Kind::kWriteWholeGroup, Kind::kValueWithUnit,
     Kind::kLevelTwice, Kind::kUnknownSetting, Kind::kSettingKind, Kind::kIdleUnknown, Kind::kTableMoreOfUnknown,
     Kind::kPriorityOfNonStrategy, Kind::kControlOfNonStrategy, Kind::kUnknownUnit, Kind::kControlArgumentTwice,
     Kind::kUnknownSensor, Kind::kNotASensor,

@@ -170,7 +170,7 @@ bool Conditions::check_row(const Pattern& pattern) {
     return false;
   }
   if (state == References::RowState::kNone) {
-    draft_.diagnostics.report(Kind::kNoState, at, {text, references_.describe_row(pattern.ref)});
+    if (!draft_.library_missing) draft_.diagnostics.report(Kind::kNoState, at, {text, references_.describe_row(pattern.ref)});
     return false;
   }
   if (pattern.sat && state == References::RowState::kSatellite) {
@@ -251,7 +251,8 @@ Outcome Conditions::evaluate_event(const Pattern& pattern, Environment values, C
     return Outcome::kBroken;
   }
   if (!cell || draft_.model[*cell].kind != CellKind::kFact) {
-    draft_.diagnostics.report(Kind::kEventOfNonFact, at, {text, references_.describe(operand), word_for(pattern.event)});
+    auto message = draft_.diagnostics.report(Kind::kEventOfNonFact, at, {text, references_.describe(operand), word_for(pattern.event)});
+    if (cell && draft_.model[*cell].kind == CellKind::kSatellite) message.note(Kind::kAskedAlone, {}, {text});
     return Outcome::kBroken;
   }
   made = ask(pattern.event, *cell);
@@ -281,6 +282,7 @@ Outcome Conditions::report_many(const Pattern& pattern, const Operand& operand) 
 
 Outcome Conditions::report_no_cell(const Pattern& pattern, const Operand& operand) {
   const bool row = operand.kind == Operand::Kind::kRow || operand.kind == Operand::Kind::kRelation;
+  if (row && draft_.library_missing) return Outcome::kBroken;   // the library declares the relation with a state
   draft_.diagnostics.report(row ? Kind::kNoState : Kind::kNotACell, references_.span(pattern.ref),
                             {references_.text(pattern.ref), references_.describe(operand)});
   return Outcome::kBroken;

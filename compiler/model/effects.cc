@@ -6,6 +6,28 @@ namespace kb::model {
 
 using diagnostics::Kind;
 
+namespace {
+
+/// The sign that an effect was written with.
+std::string_view sign_of(float value) { return value == 1.0f ? "+" : value == -1.0f ? "-" : ""; }
+
+/// What to write where a robot was to be sent by writing a landmark or a command: the route that ends there, or that it starts.
+std::string advice(const Draft& draft, const Cell& cell) {
+  for (const RouteInfo& route : draft.routes) {
+    const Row& row = draft.model[route.row];
+    if (row.cell == CellId::kNone || route.legs.empty()) continue;   // it cannot be raised
+    const Row* command = draft.model.row_in(row, "command");
+    const Row& goal = draft.model[draft.legs[route.legs.back()].row];
+    const Row* end = draft.model.row_in(goal, "to");
+    if (cell.command && command != nullptr && command->name == cell.name) return fmt::format("raise the route that it starts: `+{}`", route.name);
+    if (end != nullptr && end->name == cell.name) return fmt::format("raise the route that ends there: `+{}`", route.name);
+  }
+  if (cell.command) return "for a flag of the rules declare a satellite";
+  return fmt::format("a route that ends there sends it, raised by its name, as in `+To{}`", cell.name);
+}
+
+}  // namespace
+
 bool Effects::compile(const std::vector<syntax::Effect>& effects) {
   bool good = true;
   for (const syntax::Effect& effect : effects) {
@@ -46,9 +68,10 @@ bool Effects::check_row(const Pattern& pattern) {
   const source::Span at = references_.span(pattern.ref);
   const std::string_view text = references_.text(pattern.ref);
   switch (state) {
-    case References::RowState::kFact: draft_.diagnostics.report(Kind::kWriteToFact, at, {text, ""}); break;
+    case References::RowState::kFact: draft_.diagnostics.report(Kind::kWriteToFact, at, {text, "", sign_of(pattern.value)}); break;
     case References::RowState::kSatellite: draft_.diagnostics.report(Kind::kSatOfSatellite, at, {text}); break;
-    default: draft_.diagnostics.report(Kind::kNoState, at, {text, references_.describe_row(pattern.ref)});
+    default:
+      if (!draft_.library_missing) draft_.diagnostics.report(Kind::kNoState, at, {text, references_.describe_row(pattern.ref)});
   }
   return false;
 }
@@ -72,6 +95,7 @@ Outcome Effects::evaluate_one(const Pattern& pattern, Environment values, Writes
   const std::string_view text = references_.text(pattern.ref);
   if (!cells) {
     const bool row = operand.kind == Operand::Kind::kRow || operand.kind == Operand::Kind::kRelation;
+    if (row && draft_.library_missing) return Outcome::kBroken;
     draft_.diagnostics.report(row ? Kind::kNoState : Kind::kNotACell, references_.span(pattern.ref),
                               {text, references_.describe(operand)});
     return Outcome::kBroken;
@@ -95,13 +119,24 @@ bool Effects::may_write(const Pattern& pattern, CellId cell, std::string_view te
     draft_.diagnostics.report(Kind::kSatOfSatellite, references_.span(pattern.ref), {text})
         .note(Kind::kNameDeclaredHere, known.declared, {known.name});
   } else if (!pattern.sat && !satellite) {
-    const Kind kind = known.kind == CellKind::kFact ? Kind::kWriteToFact : Kind::kWriteToStrategy;
-    const Entity* named = draft_.names.find(text);
-    const bool plain = named != nullptr && named->kind == Entity::Kind::kFact && !known.command && !draft_.standard(known.declared);
-    draft_.diagnostics.report(kind, references_.span(pattern.ref), {text, plain ? fmt::format("if rules are to write it, declare `satellite {}` instead; ", text) : std::string()})
-        .note(Kind::kNameDeclaredHere, known.declared, {known.name});
+    report_unwritable(pattern, known, text);
   }
   return pattern.sat != satellite;
+}
+
+void Effects::report_unwritable(const Pattern& pattern, const Cell& cell, std::string_view text) {
+  const source::Span at = references_.span(pattern.ref);
+  const std::string_view sign = sign_of(pattern.value);
+  const auto say = [&](Kind kind, std::initializer_list<std::string_view> arguments) {
+    draft_.diagnostics.report(kind, at, arguments).note(Kind::kNameDeclaredHere, cell.declared, {cell.name});
+  };
+  if (cell.kind == CellKind::kStrategy) return say(Kind::kWriteToStrategy, {text, sign});
+  const Entity* declared = draft_.names.find(cell.name);
+  if (declared != nullptr && declared->kind == Entity::Kind::kLandmark) return say(Kind::kWriteToLandmark, {text, advice(draft_, cell)});
+  if (cell.command) return say(Kind::kWriteToCommand, {text, advice(draft_, cell)});
+  const Entity* named = draft_.names.find(text);
+  const bool plain = named != nullptr && named->kind == Entity::Kind::kFact && !draft_.standard(cell.declared);
+  say(Kind::kWriteToFact, {text, plain ? fmt::format("if rules are to write it, declare `satellite {}` instead; ", text) : std::string(), sign});
 }
 
 Outcome Effects::write(const Pattern& pattern, CellId cell, Writes& writes) {

@@ -30,6 +30,7 @@ class Effects {
   Outcome evaluate_one(const Pattern& pattern, Environment values, Writes& writes);
   /// False after a message if an effect as written, `sat` or not, cannot write such a cell. `text` is what the message calls it.
   bool may_write(const Pattern& pattern, CellId cell, std::string_view text);
+  void report_unwritable(const Pattern& pattern, const Cell& cell, std::string_view text);
   Outcome write(const Pattern& pattern, CellId cell, Writes& writes);
 
   Draft& draft_;

@@ -147,8 +147,7 @@ class RouteReader {
     const Entity* entity = draft_.names.find(route_.map.text);
     if (entity == nullptr || entity->kind != Entity::Kind::kMap) {
       if (entity == nullptr || entity->kind != Entity::Kind::kBroken) {
-        draft_.diagnostics.report(Kind::kUnknownMap, route_.map.span, {route_.map.text})
-            .suggest(draft_.names.nearest(route_.map.text, Entity::Kind::kMap, draft_.diagnostics));
+        report_unknown(draft_, Kind::kUnknownMap, route_.map, draft_.names.nearest(route_.map.text, Entity::Kind::kMap, draft_.diagnostics));
       }
       return false;
     }

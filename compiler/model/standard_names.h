@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,13 +31,24 @@ class StandardNames {
   /// `std.hall`, which adds `member` to the set or group `set`.
   [[nodiscard]] std::optional<std::string_view> file_with_member(std::string_view set, std::string_view member);
 
+  /// Whether `import std.navigation` brings this file of the library.
+  [[nodiscard]] bool navigation_brings(std::string_view file);
+  /// `"map.kb"`, if a file of this name lies beside the file `path` and has a map or a landmark `name`.
+  [[nodiscard]] std::optional<std::string> map_beside(std::string_view path, std::string_view name);
+
  private:
+  static constexpr std::string_view kMapFile = "map.kb";   // what `kbc new` calls it
+
   void read();
+  void add_imports(std::string_view file);
+  [[nodiscard]] std::string path_of(std::string_view file) const;
   void take(const syntax::Statement& statement, std::string_view file);
   std::string library_;
   const source::FileSystem& files_;
   bool read_ = false;
   std::map<std::string, std::string_view, std::less<>> file_of_;   // by name, and by `Set.member`
+  std::set<std::string, std::less<>> navigation_;                  // std.navigation, and what it imports; read when first asked for
+  std::map<std::string, std::set<std::string, std::less<>>> beside_;   // by folder: the names of the map there
 };
 
 struct Draft;

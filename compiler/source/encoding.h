@@ -21,6 +21,15 @@ namespace kb::source {
   return at;
 }
 
+/// What a file is that is no plain text, by how it begins, for messages; empty if it is none of these.
+[[nodiscard]] inline std::string_view other_format(std::string_view bytes) {
+  if (bytes.starts_with("PK\x03\x04")) return "a document of a word processor, or an archive";
+  if (bytes.starts_with("\xD0\xCF\x11\xE0")) return "a document of a word processor";
+  if (bytes.starts_with("{\\rtf")) return "a text with formats (RTF)";
+  if (bytes.starts_with("%PDF-")) return "a PDF file";
+  return {};
+}
+
 /// Whether a UTF-8 code point begins with this byte; if not, the byte continues one.
 [[nodiscard]] constexpr bool begins_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }
 

@@ -31,7 +31,7 @@ std::string_view singular(TokenKind declaration) {
 
 void SyntaxError::report() {
   if (stream_.is_spoilt() || stream_.is_reported()) return;
-  const bool known = is_comment() || is_import() || is_decimal_comma() || is_hyphen() || is_name_behind_attributes() || is_late_of() || is_trailing_comma() ||
+  const bool known = is_comment() || is_import() || is_decimal_comma() || is_decimal_comma_in_place() || is_hyphen() || is_name_behind_attributes() || is_late_of() || is_trailing_comma() ||
                      is_other_bracket() || is_row_without_fields() || is_empty_list() || is_range() || is_fuzzy() || is_bracket() || is_unknown_statement() ||
                      is_names_as_set() || is_map_line() || is_rule_head() || is_percept() || is_condition() || is_effect() || is_route() || is_road() || is_order() ||
                      is_quoted_name() || is_missing_comma() || is_type() || is_unknown_attribute() || is_word_as_name();
@@ -73,8 +73,22 @@ bool SyntaxError::is_decimal_comma() {
   const Token part = behind ? found_ : stream_.ahead(1);
   const bool number = whole.kind == T::kNumber && comma.kind == T::kComma && part.kind == T::kNumber;
   if (!number || whole.span.end != comma.span.begin || comma.span.end != part.span.begin) return false;
-  const source::Span all = source::join(whole.span, part.span);
-  return say(Kind::kMalformedNumber, all, {text(all)});
+  return say_decimal_comma(source::join(whole.span, part.span));
+}
+
+bool SyntaxError::say_decimal_comma(source::Span number) {
+  std::string meant(text(number));
+  std::ranges::replace(meant, ',', '.');
+  diagnostics_.report(Kind::kMalformedNumber, number, {text(number)}).suggest(meant);
+  return true;
+}
+
+// `(2,5, 0)`: noticed at the second comma, where two numbers have been read.
+bool SyntaxError::is_decimal_comma_in_place() {
+  const Token part = last_, comma = stream_.behind(2), whole = stream_.behind(3);
+  const bool numbers = kind_ == T::kComma && part.kind == T::kNumber && comma.kind == T::kComma && whole.kind == T::kNumber;
+  if (!numbers || !wants(T::kRightParen) || whole.span.end != comma.span.begin || comma.span.end != part.span.begin) return false;
+  return say_decimal_comma(source::join(whole.span, part.span));
 }
 
 // `Wall-Left`, without blanks. (A name after a number would be the number's unit.)
@@ -127,6 +141,8 @@ bool SyntaxError::is_row_without_fields() {
 bool SyntaxError::is_empty_list() {
   if (!is_left(last_.kind) || kind_ != closing(last_.kind)) return false;
   const source::Span both = source::join(last_.span, found_.span);
+  const Token name = stream_.behind(2);
+  if (statement_ == T::kRule && kind_ == T::kRightParen && name.kind == T::kIdentifier) return say(Kind::kEmptyCall, both, {text(name.span)});
   return say(Kind::kEmptyList, both, {spelling(last_.kind), spelling(kind_), wanted()});
 }
 
@@ -185,8 +201,9 @@ bool SyntaxError::is_unknown_statement() {
   }
   if (!found_.begins_line && statement_ != T::kEnd) return false;
   const bool setting = (text() == "idle" || text() == "hold_limit" || text() == "firing") && stream_.ahead(1).kind == T::kEqual;
-  diagnostics_.report(Kind::kUnknownStatement, found_.span, {diagnostics::beginning(text())})
-      .suggest(setting ? std::optional("set " + std::string(text())) : diagnostics::closest(text(), statement_words()));
+  auto message = diagnostics_.report(Kind::kUnknownStatement, found_.span, {diagnostics::beginning(text())});
+  if (text() == kForeignRule) message.note(Kind::kRuleForm, {});
+  else message.suggest(setting ? std::optional("set " + std::string(text())) : diagnostics::closest(text(), statement_words()));
   return true;
 }
 
@@ -246,7 +263,11 @@ bool SyntaxError::is_unknown_attribute() {
   const auto better = diagnostics::closest(text(), kAttributes);
   const bool valued = stream_.ahead(1).kind == T::kNumber || stream_.ahead(1).kind == T::kEqual;
   if (!better && !valued && last_.kind == T::kIdentifier && wants(T::kComma)) {   // `facts Line Wall`
-    return say(Kind::kMissingComma, behind_last(), {text(last_.span), text()});
+    const bool one = statement_ != T::kFacts && statement_ != T::kSatellites && statement_ != T::kStrategies && stream_.behind(2).kind == statement_;
+    if (!one) return say(Kind::kMissingComma, behind_last(), {text(last_.span), text()});
+    const std::string joined = std::string(text(last_.span)) + "_" + std::string(text());   // `fact Battery low`
+    diagnostics_.report(Kind::kMissingComma, source::join(last_.span, found_.span), {text(last_.span), text()}).suggest(joined);
+    return true;
   }
   diagnostics_.report(Kind::kUnknownAttribute, found_.span, {text(), singular(statement_)}).suggest(better);
   return true;
@@ -276,7 +297,8 @@ std::optional<std::string> SyntaxError::near_expected_word() const {
 void SyntaxError::report_unexpected() {
   const bool statement = found_.begins_line && is_keyword(kind_) && !begins_statement(kind_) && statement_may_begin(expected_);   // `event Bump`
   if (statement) {
-    say(Kind::kUnknownStatement, found_.span, {text()});
+    auto message = diagnostics_.report(Kind::kUnknownStatement, found_.span, {text()});
+    if (kind_ == T::kWhen || kind_ == T::kWhile) message.note(Kind::kRuleForm, {});
     return;
   }
   auto message = diagnostics_.report(Kind::kUnexpected, place(), {wanted(), found()});

@@ -31,6 +31,8 @@ class SyntaxError {
   [[nodiscard]] bool is_comment();
   [[nodiscard]] bool is_import();
   [[nodiscard]] bool is_decimal_comma();
+  [[nodiscard]] bool is_decimal_comma_in_place();
+  bool say_decimal_comma(source::Span number);
   [[nodiscard]] bool is_hyphen();
   [[nodiscard]] bool is_name_behind_attributes();
   [[nodiscard]] bool is_late_of();

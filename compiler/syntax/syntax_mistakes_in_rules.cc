@@ -202,6 +202,7 @@ bool SyntaxError::is_verb(source::Span effect) {
   const source::Span meant = last_name_ahead();
   if (!meant.known()) return false;
   const source::Span all = source::join(effect, meant);
+  if (text(effect) == "goto" || text(effect) == "go") return say(Kind::kSendEffect, all, {text(all), text(meant)});
   return say(Kind::kEffectValue, all, {text(all), text(meant)});
 }
 

@@ -126,6 +126,8 @@ std::size_t TokenStream::end_of_fault(std::size_t lists) const {
 void TokenStream::recover(bool complete) {
   const std::size_t lists = open_lists();
   std::size_t i = end_of_fault(lists);
+  const Token& fault = tokens_[handed_ - 1];
+  if (fault.begins_line && sources_.text(fault.span) == kForeignRule) forget_slips_before(tokens_[i].span.begin);
   closing_ = ends_statement(i) ? lists : 0;
   spoilt_ = false;
   open_.resize(lists);
@@ -138,6 +140,12 @@ void TokenStream::recover(bool complete) {
   resuming_ = tokens_[handed_ - 1].kind != TokenKind::kEnd;   // kEnd has been handed out already: after an error at the end the parser does not come back
   handed_ = i;
   last_is_accepted_ = true;
+}
+
+/// In a statement of another language each `==` and `;` is as it should be there.
+void TokenStream::forget_slips_before(std::uint32_t end) {
+  const auto first = errors_.begin() + static_cast<std::ptrdiff_t>(reported_);
+  errors_.erase(std::remove_if(first, errors_.end(), [end](const LexicalError& error) { return error.repaired && error.span.begin < end; }), errors_.end());
 }
 
 void TokenStream::stop(Wanted at) {

@@ -12,6 +12,7 @@
 #include <bitset>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
@@ -31,6 +32,9 @@ class TokenSet {
  private:
   std::bitset<128> bits_;
 };
+
+/// With this word other languages begin a rule.
+inline constexpr std::string_view kForeignRule = "if";
 
 /// What the parser will read, and the errors found so far, in order of the text.
 struct Prepared {
@@ -85,6 +89,7 @@ class TokenStream {
   [[nodiscard]] std::size_t end_of_fault(std::size_t lists) const;
   [[nodiscard]] bool begins_line_of_list(std::size_t token, std::size_t lists) const;
   void report_before(std::uint32_t end);
+  void forget_slips_before(std::uint32_t end);
 
   const source::Sources& sources_;
   diagnostics::Diagnostics& diagnostics_;

@@ -69,7 +69,7 @@ bool EventReader::read_trigger() {
     table_.missing("when");
     return false;
   }
-  auto when = table_.table("when");
+  auto when = table_.table("when", "a table, such as `{ time = 5 }` or `{ leg = \"A>B\" }`,");
   if (!when) return false;
   struct Known { std::string_view word; bool (*read)(EventReader&, TomlTable&); };
   static constexpr std::array kKnown{

@@ -2,9 +2,22 @@
 
 #include <fmt/format.h>
 
+#include "compiler/diagnostics/display.h"
 #include "sim/world/geometry.h"
 
 namespace kb::sim {
+namespace {
+
+/// A road is named by a landmark that it does not end at by such an exit: `Hub` or `Hub.W` for `Hub.E`. Which one is meant cannot be guessed.
+void report_no_exit(const TomlTable& table, std::string_view key, std::string_view written, const Crossing& crossing) {
+  std::vector<std::string> ends;
+  for (const Arm& arm : crossing.arms) ends.push_back(crossing.name + "." + arm.name);
+  const std::vector<std::string_view> roads(ends.begin(), ends.end());
+  table.diagnostics().report(diagnostics::Kind::kSimUnknownName, table.span(key), {"road", written})
+      .note(diagnostics::Kind::kSimRoadsOf, {}, {crossing.name, diagnostics::in_a_row(roads)});
+}
+
+}  // namespace
 
 std::optional<CrossingId> Names::crossing(TomlTable& table, std::string_view key) const {
   const auto name = table.text(key);
@@ -23,6 +36,10 @@ std::optional<Labyrinth::End> Names::end(TomlTable& table, std::string_view key)
   if (const auto found = labyrinth.end(*name)) return found;
   std::vector<std::string> ends;
   for (const Crossing& crossing : labyrinth.crossings) {
+    if (crossing.name == name->substr(0, name->find('.'))) {
+      report_no_exit(table, key, *name, crossing);
+      return std::nullopt;
+    }
     for (const Arm& arm : crossing.arms) ends.push_back(crossing.name + "." + arm.name);
   }
   const std::vector<std::string_view> candidates(ends.begin(), ends.end());

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -49,6 +50,9 @@ void read_build(TomlTable& sensors, SensorId id, Scenario& scenario) {
   check_rate(*table, id, build, scenario.body);
   table->done();
 }
+
+/// The keys of the robot that are forgotten to be its own. read_body reads them.
+constexpr std::array<std::string_view, 10> kRobotKeys{"size", "radius", "wheel_base", "speed", "acceleration", "turn", "slip", "slip_mean", "wheel_mismatch", "motor_lag"};
 
 /// Reads lengths and limits of the robot; the world, the wheels and the controllers all take these.
 void read_body(TomlTable& robot, Scenario& scenario) {
@@ -293,7 +297,7 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   });
   if (commands) scenario->events.clear();   // without any, the command of the first route is pressed as in a plain drive
   std::move(events.begin(), events.end(), std::back_inserter(scenario->events));
-  table.done();
+  table.done("robot", kRobotKeys);
   if (diagnostics.errors() != before) return std::nullopt;
   if (!start && first_route(model) == nullptr) {
     diagnostics.report(Kind::kSimMissing, start_at, {"a drive without a route", "[start]"});

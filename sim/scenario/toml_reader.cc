@@ -9,6 +9,7 @@
 #include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
 #include "sim/scenario/toml_keys.h"
+#include "sim/scenario/toml_mistakes.h"
 
 namespace kb::sim {
 
@@ -45,6 +46,10 @@ std::optional<toml::table> parse_toml(source::FileId file, const TomlPlaces& pla
     diagnostics.report(Kind::kUtf16, source::Span{file, 0, 2});
     return std::nullopt;
   }
+  if (const std::string_view other = source::other_format(bytes); !other.empty()) {
+    diagnostics.report(Kind::kNotText, source::Span{file, 0, 2}, {other});
+    return std::nullopt;
+  }
   if (at < bytes.size()) {
     diagnostics.report(Kind::kLoneReturn, source::Span{file, at, at + 1});
     return std::nullopt;
@@ -57,7 +62,9 @@ std::optional<toml::table> parse_toml(source::FileId file, const TomlPlaces& pla
   try {
     return toml::parse(bytes, std::to_string(static_cast<std::uint32_t>(file)));
   } catch (const toml::parse_error& error) {
-    diagnostics.report(Kind::kSimToml, places.span(error.source()), {error.description()});
+    const source::Span place = places.span(error.source());
+    const std::string known = toml_mistake(bytes, place.begin, error.description());
+    diagnostics.report(Kind::kSimToml, place, {known.empty() ? error.description() : std::string_view(known)});
     return std::nullopt;
   }
 }
@@ -160,7 +167,9 @@ std::optional<double> TomlTable::number(std::string_view key, Range range) {
   if (node == nullptr) return std::nullopt;
   const auto value = number_in(*node);
   if (!value) {
-    wrong_type(key, *node, "a number");
+    const auto* text = node->as_string();
+    const std::string meant = text != nullptr ? number_at(text->get()) : std::string();
+    wrong_type(key, *node, meant.empty() ? "a number" : fmt::format("a number without quotation marks and unit, `{}`,", meant));
     return std::nullopt;
   }
   return in_range(key, *node, *value, range) ? value : std::nullopt;
@@ -205,11 +214,11 @@ std::vector<std::string> TomlTable::texts(std::string_view key) {
   return texts;
 }
 
-std::optional<TomlTable> TomlTable::table(std::string_view key) {
+std::optional<TomlTable> TomlTable::table(std::string_view key, std::string_view wanted) {
   const toml::node* node = get(key);
   if (node == nullptr) return std::nullopt;
   if (const toml::table* value = node->as_table()) return TomlTable(*value, fmt::format("`{}`", key), *places_, *diagnostics_);
-  wrong_type(key, *node, "a table");
+  wrong_type(key, *node, wanted);
   return std::nullopt;
 }
 
@@ -262,12 +271,13 @@ void TomlTable::unknown_name(std::string_view key, std::string_view kind, std::s
   message.note(Kind::kSimThereAre, {}, {diagnostics::in_a_row(candidates)});
 }
 
-void TomlTable::done() {
+void TomlTable::done(std::string_view inner, std::span<const std::string_view> of_inner) {
   for (const auto& [key, node] : *table_) {
     if (is_asked(key)) continue;
     std::vector<std::string_view> candidates(asked_.begin(), asked_.end());
+    const bool deeper = std::find(of_inner.begin(), of_inner.end(), key.str()) != of_inner.end();
     diagnostics_->report(Kind::kSimUnknownKey, places_->span(key.source()), {key.str(), fmt::format("{} takes {}", what_, diagnostics::in_a_row(candidates))})
-        .suggest(diagnostics::closest(key.str(), candidates));
+        .suggest(deeper ? fmt::format("{}.{}", inner, key.str()) : diagnostics::closest(key.str(), candidates));
   }
 }
 

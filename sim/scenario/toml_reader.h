@@ -53,7 +53,8 @@ class TomlTable {
   /// `true` or `false`; false if it is not there.
   [[nodiscard]] bool flag(std::string_view key);
   [[nodiscard]] std::vector<std::string> texts(std::string_view key);
-  [[nodiscard]] std::optional<TomlTable> table(std::string_view key);
+  /// `wanted`: what a message says that the table is, if something else stands there.
+  [[nodiscard]] std::optional<TomlTable> table(std::string_view key, std::string_view wanted = "a table");
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);
   /// Two numbers in brackets, each in its range.
   struct Pair { double x = 0.0, y = 0.0; };
@@ -65,8 +66,8 @@ class TomlTable {
   [[nodiscard]] source::Span span(std::string_view key = {}) const;
   void missing(std::string_view key);
   void unknown_name(std::string_view key, std::string_view kind, std::string_view name, std::span<const std::string_view> candidates);
-  /// Reports the keys that were not read.
-  void done();
+  /// Reports the keys that were not read. `of_inner`: keys of the table `inner` within this one, which may have been meant.
+  void done(std::string_view inner = {}, std::span<const std::string_view> of_inner = {});
   [[nodiscard]] diagnostics::Diagnostics& diagnostics() const { return *diagnostics_; }
 
  private:

@@ -18,10 +18,10 @@ struct ExplainOptions {
   bool markdown = false;
 };
 
-// Finds a message by its code, or by the name of its warning, perhaps with the `no-` or `error=` that may follow `-W`.
+// Finds a message by its code, or by the name of its warning, perhaps with the `-W` that stands before it and with `no-` or `error=`.
 std::optional<Kind> find_message(std::string_view word) {
   if (const auto kind = diagnostics::find_code(word)) return kind;
-  for (const std::string_view prefix : {"error=", "no-"}) {
+  for (const std::string_view prefix : {"-", "W", "error=", "no-"}) {
     if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
   }
   return diagnostics::find_flag(word);
@@ -32,7 +32,7 @@ std::string describe(Kind kind) {
   const bool warning = about.severity == diagnostics::Severity::kWarning;
   std::string text =
       diagnostics::code_text(kind) + (warning ? " (warning -W" + std::string(about.flag) + "): " : " (error): ");
-  text += std::string(about.text) + "\n\n";
+  text += diagnostics::general_text(kind) + "\n\n";
   return text + std::string(diagnostics::explanation(kind)) + "\n";
 }
 

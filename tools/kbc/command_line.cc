@@ -132,6 +132,7 @@ std::string unknown_option(const CLI::App& command, std::string_view name) {
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& known : option->get_lnames()) options.push_back("--" + known);
   }
+  if (name.starts_with("error") || name.starts_with("-error")) options.emplace_back("-Werror");   // what is left of `-werror`
   if (const auto better = diagnostics::closest(name, std::vector<std::string_view>(options.begin(), options.end()))) message += "; did you mean `" + *better + "`?";
   return message;
 }
@@ -140,6 +141,12 @@ std::string unknown_option(const CLI::App& command, std::string_view name) {
 std::string unexpected(const CLI::App& command, const std::vector<std::string>& words) {
   const auto first = std::find_if(words.begin(), words.end(), [](const std::string& word) { return word != "--"; });
   if (first == words.end()) return "`--` is one argument too many";
+  for (const std::string_view dash : {"\u2013", "\u2014"}) {   // a text editor makes one dash of two
+    if (first->starts_with(dash)) return fmt::format("{} begins with a long dash; write `--{}`", diagnostics::quoted_code(*first), first->substr(dash.size()));
+  }
+  if (first->ends_with(".toml") && command.get_option_no_throw("--scenario") != nullptr) {
+    return fmt::format("a scenario stands behind `--scenario`: `--scenario {}`", *first);
+  }
   if (first == words.begin() && first->starts_with('-')) return unknown_option(command, first->substr(0, first->find('=')));
   return diagnostics::quoted_code(*first) + " is one argument too many";
 }

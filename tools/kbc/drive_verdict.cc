@@ -91,6 +91,10 @@ std::string print_summary(const sim::Summary& summary, double scale, double limi
   if (summary.closest) out += fmt::format("  closest     {:.2f} m to {} at {:.1f} s\n", summary.closest->gap_m, summary.closest->what, summary.closest->t_s);
   for (const auto& fault : summary.faults) out += fmt::format("  fault       {}\n", fault.what);
   for (const auto& missed : summary.missed) out += fmt::format("  never happened: {}\n", missed.what);
+  const bool unpressed = std::ranges::any_of(summary.missed, [](const auto& event) { return event.what.ends_with(" pressed"); });
+  if (summary.outcome == sim::Summary::Outcome::kNeverStarted && unpressed) {
+    out += "  no command was pressed: since the scenario presses one itself, the first one is not pressed after 1 s; add an event for it\n";
+  }
   out += fmt::format("  lost without knowing it: {}\n", summary.lost_unaware() ? fmt::format("yes, for {:.1f} s", summary.unaware_s) : "no");
   return out;
 }
