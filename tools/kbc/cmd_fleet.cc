@@ -342,7 +342,7 @@ int run_fleet(const FleetOptions& options, Session& session) {
 Run setup_fleet(CLI::App& app) {
   auto options = std::make_shared<FleetOptions>();
   add_ground_options(app, options->ground);
-  app.add_option("--scenario", options->scenarios, "What happens, TOML; may be given often, and with a name for the results; without it nothing goes wrong")
+  app.add_option("--scenario", options->scenarios, "What happens, TOML; may be given often, and with a name for the results; without it nothing is done to the robot")
       ->type_name("FILE=NAME")
       ->allow_extra_args(false);
   app.add_option("--seeds", options->seeds, "Seeds of all noise: one, or the first and the last, 1-100")->type_name("RANGE")->capture_default_str();

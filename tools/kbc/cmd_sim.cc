@@ -178,7 +178,7 @@ int run(const SimOptions& options, Session& session) {
 Run setup_sim(CLI::App& app) {
   auto options = std::make_shared<SimOptions>();
   add_ground_options(app, options->ground);
-  app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing goes wrong")->type_name("FILE");
+  app.add_option("--scenario", options->scenario, "What happens, TOML; without it nothing is done to the robot")->type_name("FILE");
   auto* expect = app.add_option("--expect", options->expect, "Fail unless the drive ends like this, and well: `arrived`, `arrived at Shelf`, `stopped: Help.lost`")
                      ->type_name("ENDING");
   app.add_option("--allow", options->allow, "What --expect lets pass: collisions, closed (roads taken), unsafe (crossings entered), lost (unaware), missed (events)")

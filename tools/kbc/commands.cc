@@ -139,9 +139,9 @@ constexpr std::array kCommands = {
             "The map becomes a floor with lines, walls and tags; a robot with noisy sensors drives on it, and the compiled "
             "knowledge base decides. A scenario says where it begins and what goes wrong. Says how it ended, how long it "
             "took, and whether the robot hit anything or was lost without knowing it.",
-            "kbc sim mission.kb                                              # nothing goes wrong\n"
+            "kbc sim mission.kb                                              # presses the first command\n"
             "kbc sim mission.kb --scenario closed.toml --trace drive.jsonl   # a line of JSON a tick, as `kbc run` writes it\n"
-            "kbc sim mission.kb --facts tests/drive.facts.csv                # what it was told, for `kbc why`, `kbc test`, `kbc diff`\n"
+            "kbc sim mission.kb --facts drive.facts.csv                      # what it was told, for `kbc why`, `kbc test`, `kbc diff`\n"
             "kbc sim mission.kb --seed 7                                     # other noise\n"
             "kbc sim mission.kb --scenario closed.toml --expect arrived      # exit code 1 if it does not\n"
             "kbc sim mission.kb --html drive.html                            # a page that plays the drive\n"
