@@ -364,5 +364,61 @@ TEST_F(Orders, TheHeaderOfAMessageIsComplete) {
   }
 }
 
+/// A vehicle that somebody has set down somewhere and that has read one sign, of which it was told the side.
+class SetDown : public Yard {
+ protected:
+  void read(const std::string& landmark, std::optional<Whereabouts> at) {
+    progress.here = landmark;
+    progress.at = std::move(at);
+    look();
+  }
+};
+
+TEST_F(SetDown, TheSignOfAnotherNodeBeforeTheFirstCrossingEndsTheOrder) {
+  read("L1", std::nullopt);
+  say("order", order("A", 0, {"n1", "n2", "n3"}, 2));
+  begin();
+  progress.reached = 1;
+  look();
+  EXPECT_EQ(errors(), "");
+  read("L2", std::nullopt);   // it has been behind the first node all the time
+  EXPECT_EQ(errors(), "orderError cannotGoOn");
+  EXPECT_EQ(way(), "");
+}
+
+TEST_F(SetDown, AfterTheFirstCrossingSignsCountAsEver) {
+  read("L1", Whereabouts{{"L1", "W"}, 0.6, false});
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  EXPECT_EQ(vehicle.task().start, Start::kBefore);
+  EXPECT_EQ(left(), "n2 n3") << "it is at the node that it faces";
+  set_off();
+  read("L2", Whereabouts{{"L1", "E"}, 5.4});
+  EXPECT_EQ(errors(), "");
+}
+
+TEST_F(SetDown, WhoKnowsThatTheFirstNodeIsBehindItDrivesOn) {
+  read("L1", Whereabouts{{"L1", "E"}, 0.6});
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  EXPECT_EQ(vehicle.task().start, Start::kBeyond);
+  begin();
+  progress.reached = 1;
+  read("L2", Whereabouts{{"L1", "E"}, 5.4});
+  EXPECT_EQ(errors(), "");
+  pass();
+  EXPECT_EQ(state["lastNodeId"], "n2");
+  say("order", order("A", 1, {"n3", "n4"}, 1, 4));
+  pass();
+  stop();
+  read("L3", Whereabouts{{"L2", "E"}, 5.4});
+  EXPECT_EQ(errors(), "") << "nor is the first node expected when the way is over";
+}
+
+TEST_F(SetDown, OrTurnsRound) {
+  read("L2", Whereabouts{{"L2", "E"}, 0.6});
+  say("order", order("A", 0, {"n2", "n1"}));
+  EXPECT_EQ(vehicle.task().start, Start::kBack);
+  EXPECT_EQ(left(), "n2 n1");
+}
+
 }  // namespace
 }  // namespace kb::vda5050
