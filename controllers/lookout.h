@@ -103,6 +103,8 @@ class Lookout {
   }
   /// Whether the robot is never carried between two missions: then it keeps its place on its road when nothing was told to it for two seconds.
   void keep_place(bool keeps) noexcept { watch_.keep_place(keeps); }
+  /// The robot may be anywhere: it is driven or carried by hand. Only the sign that it reads now still counts. To be called each period meanwhile.
+  void forget_place(Pilot& pilot) noexcept { watch_.forget(pilot); }
   /// Whether the knowledge base has this landmark.
   [[nodiscard]] bool knows(const char* landmark) const noexcept { return find_landmark(landmark) != kNone; }
   [[nodiscard]] const RoadWatch& watch() const noexcept { return watch_; }

@@ -144,7 +144,7 @@ class Pilot {
   /// It has read the sign where this road begins, and drives away from it. If it did not know its road, now it does, to some 30 cm.
   void learn_road(const MapRoad& road) noexcept {
     if (place_.road() != nullptr || in_crossing()) return;
-    place_.put(road, line_out_m(road, as_.out(body_)) + kSignBehindLine_m * size());
+    place_.put(road, sign_m(road, as_.out(body_)));
     learnt_ = follows_;
   }
   /// Whether it was, and has not entered a crossing since.
@@ -348,7 +348,7 @@ class Pilot {
 
   [[nodiscard]] float size() const noexcept { return as_.out(1.0f, "m"); }
 
-  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f, kEndless_m = 1e3f, kBackInMiddle_m = 1.0f, kWayOut_m = 0.2f, kAlong_rad = 0.5f, kSignBehindLine_m = 0.15f;
+  static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f, kEndless_m = 1e3f, kBackInMiddle_m = 1.0f, kWayOut_m = 0.2f, kAlong_rad = 0.5f;
 
   Similarity as_;
   Body body_;                                 // of size 1, as the controllers know it

@@ -118,6 +118,11 @@ class RoadsDriven {
 /// From the middle of the crossing where the road begins to its stop line out, and from its stop line in to the middle of the crossing where it ends.
 [[nodiscard]] constexpr float line_out_m(const MapRoad& road, const Body& body) noexcept { return stop_line_m(road.begins_apart_rad, body); }
 [[nodiscard]] constexpr float line_in_m(const MapRoad& road, const Body& body) noexcept { return stop_line_m(road.ends_apart_rad, body); }
+/// From the middle of the crossing where the road begins to the sign on it, a little outside the stop line out.
+[[nodiscard]] constexpr float sign_m(const MapRoad& road, const Body& body) noexcept {
+  constexpr float kOutside_m = 0.15f;   // for a robot of size 1
+  return line_out_m(road, body) + kOutside_m * body.size;
+}
 
 /// Where the robot's centre is when its line sensors are on the stop line out, in m from the middle of that crossing; and where the stop line in is.
 [[nodiscard]] constexpr float begin_of_course_m(const MapRoad& road, const Body& body) noexcept { return line_out_m(road, body) - body.line_ahead_m; }

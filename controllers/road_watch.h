@@ -38,6 +38,8 @@ class RoadWatch {
   explicit RoadWatch(const Body& body, bool notices_carried) noexcept : as_(body), body_(as_.in(body)), line_(body_), notices_carried_(notices_carried) {}
   /// Whether the robot is never carried between two missions: then it keeps its place.
   void keep_place(bool keeps) noexcept { keeps_place_ = keeps; }
+  /// The robot may be anywhere: only the sign that it reads now still counts, by the compass of now.
+  void forget(Pilot& pilot) noexcept { forget_place(pilot), forget_unread_sign(); }
 
   /// Each period, after the pilot's `step`. `sign`: what is read now; null: nothing. A robot that was carried, or that has rested for two
   /// seconds, has its pilot forget the place.
@@ -106,8 +108,9 @@ class RoadWatch {
   [[nodiscard]] const char* landmark() const noexcept { return turned_from_sign_ || (set_down_ && at_ == At::kLeaving) || !believed() ? "" : sign_.landmark; }
   /// What it says; only the last sign that was believed counts.
   [[nodiscard]] const SignRead& sign() const noexcept { return sign_; }
-  /// Falls with the way since it was read.
+  /// Falls with the way since it was read, or since the crossing was entered or left: `since_sign_m`.
   [[nodiscard]] float landmark_certainty() const noexcept { return greatest(kSure - kFades_1_m * since_m_, 0.0f); }
+  [[nodiscard]] float since_sign_m() const noexcept { return as_.out(since_m_, "m"); }
   /// The side on whose road the robot arrives; "" if it does not, or nobody knows.
   [[nodiscard]] const char* arrives_by() const noexcept {
     const bool by_road = due_ && road_ != nullptr;
@@ -206,6 +209,7 @@ class RoadWatch {
     rounding_ = guided_ = crosses_ = turned_back_ = met_line_ = begins_on_road_ = awaits_out_ = false;
     beside_m_ = 0.0f;
   }
+  void forget_unread_sign() noexcept { if (unread_s_ >= kReadingLasts_s) sign_ = {}, at_ = At::kNowhere; }
   /// Between two missions somebody may carry the robot to where the next one is to begin, and its wheels do not notice.
   void rest(Pilot& pilot, float dt) noexcept {
     const bool rests = pilot.line() == nullptr && pilot.road_of_leg() == nullptr;
@@ -218,9 +222,7 @@ class RoadWatch {
     drove_ = false;
     without_line_m_ = 0.0f;
     obstacle_sight_.rest();
-    if (unread_s_ < kReadingLasts_s) return;   // it still reads the sign
-    sign_ = {};
-    at_ = At::kNowhere;
+    forget_unread_sign();
   }
 
   void hear_crossing() noexcept {

@@ -38,6 +38,7 @@ Driver::Driver(const Knowledge& knowledge, const Labyrinth& labyrinth, const mts
       names_(names_of_facts(*knowledge.program)),
       landmarks_(runs_of(knowledge.landmarks)),
       halls_(knowledge, labyrinth, roads_, pilot_),
+      body_(body),
       pilot_(body, halls_.host()),
       lookout_(body, {landmarks_.data(), landmarks_.size()}, {&roads_}, {&names_}),
       mind_(knowledge),
@@ -140,8 +141,19 @@ std::optional<MapPlace> Driver::place() const {
     const mts::OnRoad::Spot spot = pilot_.place().spot();
     return MapPlace{road->from, road->exit, static_cast<double>(spot.along_m), pilot_.place().turned_rad(spot.along_m) < 0.5f * mts::kPi};
   }
+  return place_by_sign();
+}
+
+std::optional<MapPlace> Driver::place_by_sign() const {
   const std::string* const at = tag_text();
-  return at != nullptr ? std::optional(MapPlace{*at, {}}) : std::nullopt;
+  if (at == nullptr) return std::nullopt;
+  const mts::RoadWatch& watch = lookout_.watch();
+  const bool leaves = watch.at() == mts::RoadWatch::At::kLeaving;
+  const mts::MapRoad* road = watch.at() == mts::RoadWatch::At::kCrossing || pilot_.in_crossing() ? nullptr : roads_.find(*at, watch.sign().exit);
+  const bool faces_anywhere = leaves && !pilot_.heard().heading_known;   // by its wheels alone it does not know how it was set down
+  if (road == nullptr || faces_anywhere) return MapPlace{*at, {}};
+  const float sign_m = mts::sign_m(*road, body_), since_m = watch.since_sign_m();
+  return MapPlace{road->from, road->exit, static_cast<double>(leaves ? sign_m + since_m : std::max(sign_m - since_m, 0.0f)), leaves};
 }
 
 const Strategy* Driver::strategy() const { return strategy_ >= 0 ? &knowledge_->strategies[static_cast<std::size_t>(strategy_)] : nullptr; }

@@ -65,6 +65,8 @@ class Driver {
   void take(const Knowledge& next);
   /// Whether the robot is never carried between two missions: then it keeps its place on a road, or in a crossing.
   void keep_place(bool keeps) { lookout_.keep_place(keeps); }
+  /// It may be anywhere: somebody drives or carries it. To be called each period meanwhile.
+  void forget_place() { lookout_.forget_place(pilot_); }
   /// An operator places it `along_m` from `landmark` on the road that leaves it by `exit`, in the middle, facing away from it.
   void put(std::string_view landmark, std::string_view exit, double along_m);
   /// One tick of the mind.
@@ -76,7 +78,8 @@ class Driver {
   [[nodiscard]] const mts::Senses& senses() const { return senses_; }
   /// The current leg; null if there is none.
   [[nodiscard]] const Leg* leg() const;
-  /// Where it is, by signs and wheels. A place without an exit is in that landmark's crossing, or before it. Nothing until a sign is read.
+  /// Where it is, by signs and wheels: on a road that the map has, and near a sign that it has just read, to the reach of its reader. A place
+  /// without an exit is in that landmark's crossing. Nothing until a sign is read. A robot without a compass is taken to face the landmark.
   [[nodiscard]] std::optional<MapPlace> place() const;
   /// Whether it is past the stop line of a crossing and not out of it yet: the sign of its exit may have been read already, but not its line.
   [[nodiscard]] bool in_crossing() const { return pilot_.in_crossing(); }
@@ -99,6 +102,7 @@ class Driver {
   [[nodiscard]] std::optional<RoadEnd> came_by() const;
   [[nodiscard]] float limit_m_s();
   [[nodiscard]] const mts::MapRoad* road_of_leg() const;
+  [[nodiscard]] std::optional<MapPlace> place_by_sign() const;
   void read(const TagHeard& tag);
   [[nodiscard]] const std::string* tag_text() const;
   [[nodiscard]] const std::string* memory_text();
@@ -110,6 +114,7 @@ class Driver {
   std::vector<std::string> names_;   // of facts
   std::vector<mts::FactRun> landmarks_;
   HallHost halls_;
+  const mts::Body body_;          // the robot's own
   mts::Pilot pilot_;
   mts::Lookout<Knowledge, FactsByName> lookout_;
   Mind mind_;

@@ -130,6 +130,7 @@ struct Pillar { Spot at; double radius_m = 0.0; };
 
 struct Labyrinth {
   double scale = 1.0;               ///< metres on the floor for a metre of the map
+  RoadId scaled_for = RoadId::kNone;   ///< the road for whose sake it is more than 1; kNone: it is 1, or was asked for
   double size = 1.0;                ///< of its robot (Body::size): all that is built here is larger by this factor, except paint, which has `widths`
   PaintWidths widths;
   std::vector<Crossing> crossings;

@@ -245,7 +245,11 @@ std::string size_text(double size) { return size < 1e12 ? fmt::format("{:.0f}", 
 
 bool stretch(Labyrinth& labyrinth, const LayoutOptions& options, Diagnostics& diagnostics) {
   double needed = 0.0;
-  for (const Road& road : labyrinth.roads) needed = std::max(needed, least_scale(labyrinth, road));
+  for (std::size_t r = 0; r < labyrinth.roads.size(); ++r) {
+    const double least = least_scale(labyrinth, labyrinth.roads[r]);
+    if (!options.scale && least > std::max(1.0, needed)) labyrinth.scaled_for = static_cast<RoadId>(r);
+    needed = std::max(needed, least);
+  }
   labyrinth.scale = options.scale ? *options.scale : std::max(1.0, stepped(needed));
   if (!options.scale) warn_of_short_road(labyrinth, diagnostics);
   bool good = true;

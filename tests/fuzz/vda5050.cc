@@ -48,7 +48,7 @@ void require(bool good) {
 }
 
 Json with_header(Json message) {
-  message.update({{"version", "2.1.0"}, {"manufacturer", "m"}, {"serialNumber", "s"}});
+  message.update({{"headerId", 0}, {"timestamp", "2026-11-21T03:21:44.736Z"}, {"version", "2.1.0"}, {"manufacturer", "m"}, {"serialNumber", "s"}});
   return message;
 }
 

@@ -11,6 +11,7 @@
 #include "compiler/model/ground.h"
 #include "tools/kbc/fll/fll.h"
 #include "tools/kbc/find_named.h"
+#include "tools/kbc/json/date_time.h"
 #include "tools/kbc/layout/layout.h"
 
 namespace kb::cli {
@@ -79,6 +80,7 @@ Run setup_export(CLI::App& app) {
   auto* timestamp = app.add_option("--timestamp", options->timestamp, "lif: when the file was made; as long as it is not given, the same map is the same file")->type_name("TIME")->capture_default_str();
   app.add_option("-o,--output", options->output, "Write to this file")->type_name("FILE");
   app.parse_complete_callback([options, vehicle, timestamp] {
+    if (!json::is_date_time(options->timestamp)) throw CLI::ValidationError("--timestamp", "`" + options->timestamp + "` is no time like 2026-03-02T07:45:00Z");
     if (options->format == "fll" && (vehicle->count() > 0 || timestamp->count() > 0)) throw CLI::ValidationError("--vehicle and --timestamp stand in a layout, so they need `lif`");
   });
   return [options](Session& session) { return run_export(*options, session); };

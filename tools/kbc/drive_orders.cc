@@ -1,11 +1,13 @@
 #include "tools/kbc/drive_orders.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <set>
 #include <utility>
 
+#include "sim/world/geometry.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/layout_file.h"
 #include "tools/kbc/layout_plant.h"
@@ -87,6 +89,14 @@ std::unique_ptr<vda5050::Plant> plant_of(const OrderOptions& options, const Orde
   return plant->is_on_floor(messages) ? std::move(plant) : nullptr;
 }
 
+/// A master knows the plant in metres, and would be told others.
+void warn_of_scale(const sim::Labyrinth& floor, const DriveGround& ground, Session& session) {
+  if (floor.scaled_for == sim::RoadId::kNone) return;
+  const sim::Road& road = floor[floor.scaled_for];
+  auto messages = session.diagnostics(ground.compiled->sources);
+  messages.report(Kind::kOrdersScale, road.span, {road.name, fmt::format("{:.3g}", sim::length_of(road.along) / floor.scale), fmt::format("{:g}", floor.scale)});
+}
+
 void add_plant_options(CLI::App& app, OrderOptions& options, CLI::Option* orders, const std::string& group) {
   app.add_option("--map-id", options.map, "The map that positions are on (that of the layout; else the name of the knowledge base's map)")
       ->type_name("NAME")->needs(orders)->group(group);
@@ -137,6 +147,7 @@ std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMis
   std::unique_ptr<Orders> orders(new Orders(vda5050::without_password(options.link.orders), session));
   orders->plant_ = plant_of(options, missions, ground, *scene.labyrinth, session);
   if (orders->plant_ == nullptr) return nullptr;
+  warn_of_scale(*scene.labyrinth, ground, session);
   std::vector<vda5050::Skill> skills;
   for (const std::string& text : options.skills) skills.push_back(skill_of(text));
   vda5050::Sheet sheet = sheet_of(scene.scenario);

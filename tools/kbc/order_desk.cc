@@ -20,7 +20,9 @@ constexpr std::int64_t kSilentUs = 1'000'000;       // a robot that has been sil
 }  // namespace
 
 OrderDesk::OrderDesk(const OrderMissions& missions, const sim::Knowledge& idle, wire::Exchange& exchange, vda5050::Vehicle& vehicle, vda5050::Link& link)
-    : missions_(missions), idle_(idle), exchange_(exchange), vehicle_(vehicle), link_(link), start_(idle.find(missions.command())), turn_(idle.find(missions.turn_command())), abort_(idle.find("Abort")), pause_(idle.find("Pause")), route_(idle.find(missions.route())) {}
+    : missions_(missions), idle_(idle), exchange_(exchange), vehicle_(vehicle), link_(link), start_(idle.find(missions.command())), turn_(idle.find(missions.turn_command())), abort_(idle.find("Abort")), pause_(idle.find("Pause")), route_(idle.find(missions.route())) {
+  exchange_.keep_place(true);   // nobody carries it between two missions without saying so
+}
 
 void OrderDesk::step() {
   silent_ = false;
@@ -115,6 +117,8 @@ void OrderDesk::deal(std::int64_t t_us) {
   action_states_.clear();
   while (const auto message = link_.next(t_us)) vehicle_.hear(*message, utc_us);
   if (const auto place = vehicle_.take_place()) exchange_.put(place->road.landmark, place->road.exit, place->along_m);
+  const bool on_a_mission_by_hand = exchange_.driver().on_mission() && !on_order();
+  if (vehicle_.in_hand() && !on_a_mission_by_hand) exchange_.forget_place();
   set_task();
   give_actions();
   for (const vda5050::Message& message : vehicle_.take_messages()) link_.send(message, t_us);
@@ -136,8 +140,7 @@ void OrderDesk::give_actions() {
 void OrderDesk::set_task() {
   const vda5050::Task& task = vehicle_.task();
   if (on_its_own()) return give_up();
-  exchange_.hold(task.paused && vehicle_.obeys());   // a robot that is driven by hand has no task, and forgets its place
-  exchange_.keep_place(vehicle_.obeys());   // otherwise it is driven by hand, or carried
+  exchange_.hold(task.paused && vehicle_.obeys());   // a robot that is driven by hand has no task
   if (task.number != task_.number || task.way.empty()) {
     if (exchange_.driver().on_mission()) return give_up();   // the mission that is being driven has to end first
     task_ = task;

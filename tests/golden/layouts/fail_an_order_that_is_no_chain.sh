@@ -10,3 +10,5 @@
 # RUN: sh %d/try.sh minus '{"nodeId":"Dock","sequenceId":-2,"released":true},{"nodeId":"Gate","sequenceId":0.5,"released":true}' '{"edgeId":"in","sequenceId":0,"released":true}'
 # RUN: sh %d/try.sh ends_with_an_edge '{"nodeId":"Dock","sequenceId":0,"released":true}' '{"edgeId":"in","sequenceId":1,"released":false}'
 # RUN: sh %d/try.sh actions '{"nodeId":"Dock","sequenceId":0,"released":true,"actions":"pick"}' ''
+# RUN: sh %d/try.sh backwards '{"nodeId":"Gate","sequenceId":2,"released":true},{"nodeId":"Dock","sequenceId":0,"released":true}' '{"edgeId":"in","sequenceId":1,"released":true}'
+# RUN: sh %d/try.sh old '{"nodeId":"Dock","sequenceId":0,"released":true}' '' 1.1

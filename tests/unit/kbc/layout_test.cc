@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <tuple>
 
 #include "compiler/diagnostics/consumers.h"
+#include "tools/kbc/layout/chain.h"
 #include "tools/kbc/layout/curve.h"
 #include "tools/kbc/layout/json.h"
 
@@ -32,12 +34,32 @@ TEST(Curve, ACircleIsMetExactlyByARationalSpline) {
 }
 
 TEST(Curve, BezierCurvesMeetAtEachThirdPoint) {
-  const auto points = points_within(bezier({{0, 0}, {0, 3}, {3, 3}, {3, 0}, {3, -3}, {6, -3}, {6, 0}}));
+  const auto points = points_within(bezier({{0, 0}, {0, 1}, {1, 1}, {1, 0}, {1, -1}, {2, -1}, {2, 0}}));
   ASSERT_EQ(points.size(), 7u);
-  EXPECT_NEAR(points[3].x_m, 3.0, 1e-12);
+  EXPECT_NEAR(points[3].x_m, 1.0, 1e-12);
   EXPECT_NEAR(points[3].y_m, 0.0, 1e-12);
-  EXPECT_NEAR(points[1].x_m, 1.5, 1e-12);    // at half: (p0 + 3 p1 + 3 p2 + p3) / 8
-  EXPECT_NEAR(points[1].y_m, 2.25, 1e-12);
+  EXPECT_NEAR(points[1].x_m, 0.5, 1e-12);    // at half: (p0 + 3 p1 + 3 p2 + p3) / 8
+  EXPECT_NEAR(points[1].y_m, 0.75, 1e-12);
+}
+
+TEST(Curve, ALongOneHasAsManyPiecesAsItNeeds) {
+  const Point turn[] = {{0, 0}, {40.0 / 3, 0}, {40.0 / 3, 10}, {0, 10}};   // about half a circle
+  std::vector<Point> chain = points_within(bezier({turn[0], turn[1], turn[2], turn[3]}));
+  EXPECT_GT(chain.size(), 7u);
+  EXPECT_LT(chain.size(), 63u);
+  chain.insert(chain.begin(), turn[0]);
+  chain.push_back(turn[3]);
+  double off_m = 0.0;
+  for (int i = 0; i <= 1000; ++i) {
+    const double u = i / 1000.0, v = 1.0 - u, b[] = {v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u};
+    Point on;
+    for (int k = 0; k < 4; ++k) on.x_m += b[k] * turn[k].x_m, on.y_m += b[k] * turn[k].y_m;
+    double nearest_m = 1e9;
+    for (std::size_t k = 1; k < chain.size(); ++k) nearest_m = std::min(nearest_m, nearest(on, chain[k - 1], chain[k]).distance_m);
+    off_m = std::max(off_m, nearest_m);
+  }
+  EXPECT_LT(off_m, 0.062);
+  EXPECT_EQ(points_within(bezier({{0, 0}, {1e5, 0}, {1e5, 1e5}, {0, 1e5}})).size(), 63u) << "but no more than a map should have";
 }
 
 TEST(Curve, APolygonKeepsItsCorners) {
@@ -223,6 +245,18 @@ TEST(Joined, OneSpotIsOnePlaceByTheNamesOfAll) {
   const Layout layout = joined(row_of_places());
   ASSERT_EQ(layout.places.size(), 4u);
   EXPECT_EQ(layout.places[3].also, std::vector<std::string>{"D2"});
+}
+
+TEST(Joined, OneSpotIsFiveCentimetresLarge) {
+  Layout layout;
+  for (const auto& [id, x, y] : {std::tuple("A", 0.0, 0.0), {"A2", -0.03, -0.03}, {"A3", 0.0499, 0.0}, {"B", 0.0, 0.051}, {"B2", -0.03, 0.07}, {"C", 1e300, 0.0}, {"C2", 1e300, 0.0}}) {
+    layout.places.push_back({id, "", {x, y}, {}});
+  }
+  layout = joined(layout);
+  ASSERT_EQ(layout.places.size(), 3u);
+  EXPECT_EQ(layout.places[0].also, (std::vector<std::string>{"A2", "A3"}));
+  EXPECT_EQ(layout.places[1].also, std::vector<std::string>{"B2"});
+  EXPECT_EQ(layout.places[2].also, std::vector<std::string>{"C2"});
 }
 
 }  // namespace

@@ -177,8 +177,24 @@ TEST_F(Stretches, ARobotThatGivesUpNeedsHelpUntilTheOrderIsCancelled) {
 }
 
 TEST_F(Stretches, APositionIsToldFromTheFirstSignOn) {
-  EXPECT_EQ(state["agvPosition"]["x"], 0.0);
+  EXPECT_FALSE(state.contains("agvPosition")) << "the name of a landmark is no place and no heading";
+  progress.at = Whereabouts{{"L1", "E"}, 0.6, false};
+  look();
+  instruct("s", "stateRequest");
+  EXPECT_EQ(state["agvPosition"]["x"], 0.6);
+  EXPECT_NEAR(state["agvPosition"]["theta"], 3.1416, 1e-9);
   EXPECT_EQ(state["agvPosition"]["mapId"], "yard");
+  progress.at = Whereabouts{{"L1"}};
+  look();
+  instruct("t", "stateRequest");
+  EXPECT_EQ(state["agvPosition"]["x"], 0.0);
+  EXPECT_NEAR(state["agvPosition"]["theta"], 3.1416, 1e-9) << "in the crossing, as it came";
+  progress.at.reset();
+  look();
+  progress.at = Whereabouts{{"L1"}};
+  look();
+  instruct("u", "stateRequest");
+  EXPECT_FALSE(state.contains("agvPosition")) << "it may face anywhere";
   say("order", order("A", 0, {"n1", "n2", "n3"}));
   set_off();
   progress.at = Whereabouts{{"L2", "E"}, 3.0};
@@ -188,6 +204,19 @@ TEST_F(Stretches, APositionIsToldFromTheFirstSignOn) {
   pass();
   EXPECT_EQ(state["agvPosition"]["x"], 12.0);
   EXPECT_EQ(state["agvPosition"]["theta"], 0.0) << "in the crossing, as before";
+}
+
+TEST_F(Stretches, AnEdgeIsEnteredWhereTheSignOfTheNodeBeforeItIsRead) {
+  progress.here = "";
+  look();
+  Json json = order("A", 0, {"n1", "n2"});
+  json["edges"][0]["actions"] = Json::array({action("b", "beep", "NONE")});
+  say("order", json);
+  begin();
+  look(3);
+  EXPECT_EQ(status("b"), "WAITING") << "it has yet to come to the node";
+  set_off();
+  EXPECT_EQ(status("b"), "RUNNING");
 }
 
 TEST_F(Stretches, APositionThatNobodyKnowsAnyMoreIsNotTold) {
@@ -200,6 +229,7 @@ TEST_F(Stretches, TheCrossingOfALandmarkThatIsNoNodeHasItsOwnPosition) {
   progress.here = "L3";
   look();
   say("order", order("A", 0, {"n3", "n5"}));
+  progress.at = Whereabouts{{"L3", "E"}, 5.5};
   set_off();
   progress.at = Whereabouts{{"L4"}};
   pass();

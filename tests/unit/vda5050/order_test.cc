@@ -46,6 +46,7 @@ TEST_F(Orders, AnOrderWithAMistakeIsRefused) {
   };
   const std::string bad = "validationError";
   refuses(changed([](Json& j) { j.erase("edges"); }), bad, "edges is missing");
+  refuses(changed([](Json& j) { j["nodes"] = nullptr; }), bad, "nodes is null");
   refuses(changed([](Json& j) { j["nodes"] = Json::array(); }), bad, "nodes is empty");
   refuses(changed([](Json& j) { j["nodes"].erase(2); }), bad, "2 nodes need 1 edges");
   refuses(changed([](Json& j) { j["nodes"][1]["sequenceId"] = 3; }), bad, "sequenceId 3, not 2");
@@ -87,10 +88,13 @@ TEST_F(Orders, WhatTheVehicleCannotDoIsRefused) {
 TEST_F(Orders, WhatTheVehicleDoesNotHeedIsTold) {
   Json json = order("A", 0, {"n1", "n2"});
   json["edges"][0]["maxHeight"] = 2.0;
+  json["nodes"][1]["nodePosition"] = {{"x", 6.0}, {"y", 0.0}, {"theta", 1.5}, {"mapId", "yard"}, {"allowedDeviationTheta", 0.1}};
   json["edges"][0]["trajectory"] = nullptr;   // as masters of version 2.0 say that there is none
   say("order", json);
   EXPECT_EQ(errors(), "");
-  EXPECT_NE(state["information"].dump().find("edges.maxHeight of the order is not heeded"), std::string::npos);
+  for (const char* field : {"edges.maxHeight", "nodes.nodePosition.theta", "nodes.nodePosition.allowedDeviationTheta"}) {
+    EXPECT_NE(state["information"].dump().find(std::string(field) + " of the order is not heeded"), std::string::npos) << field;
+  }
 }
 
 TEST_F(Orders, AnEdgeSaysHowFastItsRoadsMayBeDriven) {
@@ -334,11 +338,86 @@ TEST_F(Orders, MessagesForOthersAndOfOtherVersionsAreRefused) {
     json["version"] = other;
     refuses(json, "validationError", "version `" + std::string(other) + "` is not spoken here");
   }
-  json["version"] = "2.1.0";
+}
+
+TEST_F(Orders, TheHeaderOfAMessageIsComplete) {
+  Json json = order("A", 0, {"n1", "n2"});
   json.erase("headerId");
+  refuses(json, "validationError", "headerId is missing");
+  json["headerId"] = "first";
+  refuses(json, "validationError", "headerId is a string, not a number");
+  json["headerId"] = 0;
   json.erase("timestamp");
-  say("order", json);
-  EXPECT_EQ(state["orderId"], "A");
+  refuses(json, "validationError", "timestamp is missing");
+  for (const char* no : {"gestern", "", "2026-03-02", "2026-03-02T07:45:00", "2026-02-30T07:45:00Z", "2026-03-02T24:00:00Z", "2026-03-02T07:45:00.Z", "2026-03-02T07:45:00ZZ", "2026-03-02T07:45:00+1"}) {
+    json["timestamp"] = no;
+    refuses(json, "validationError", "timestamp is `" + std::string(no) + "`");
+  }
+  int update = 0;
+  for (const char* yes : {"2026-03-02T07:45:00Z", "2024-02-29T23:59:60.123456Z", "2026-03-02T07:45:00+01:00"}) {
+    json["timestamp"] = yes;
+    json["orderId"] = fmt::format("A{}", ++update);
+    json["nodes"].erase(json["nodes"].size() - 1), json["edges"].clear();
+    say("order", json);
+    EXPECT_EQ(state["orderId"], json["orderId"]) << yes << last_error();
+    json = order("A", 0, {"n1", "n2"});
+  }
+}
+
+/// A vehicle that somebody has set down somewhere and that has read one sign, of which it was told the side.
+class SetDown : public Yard {
+ protected:
+  void read(const std::string& landmark, std::optional<Whereabouts> at) {
+    progress.here = landmark;
+    progress.at = std::move(at);
+    look();
+  }
+};
+
+TEST_F(SetDown, TheSignOfAnotherNodeBeforeTheFirstCrossingEndsTheOrder) {
+  read("L1", std::nullopt);
+  say("order", order("A", 0, {"n1", "n2", "n3"}, 2));
+  begin();
+  progress.reached = 1;
+  look();
+  EXPECT_EQ(errors(), "");
+  read("L2", std::nullopt);   // it has been behind the first node all the time
+  EXPECT_EQ(errors(), "orderError cannotGoOn");
+  EXPECT_EQ(way(), "");
+}
+
+TEST_F(SetDown, AfterTheFirstCrossingSignsCountAsEver) {
+  read("L1", Whereabouts{{"L1", "W"}, 0.6, false});
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  EXPECT_EQ(vehicle.task().start, Start::kBefore);
+  EXPECT_EQ(left(), "n2 n3") << "it is at the node that it faces";
+  set_off();
+  read("L2", Whereabouts{{"L1", "E"}, 5.4});
+  EXPECT_EQ(errors(), "");
+}
+
+TEST_F(SetDown, WhoKnowsThatTheFirstNodeIsBehindItDrivesOn) {
+  read("L1", Whereabouts{{"L1", "E"}, 0.6});
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  EXPECT_EQ(vehicle.task().start, Start::kBeyond);
+  begin();
+  progress.reached = 1;
+  read("L2", Whereabouts{{"L1", "E"}, 5.4});
+  EXPECT_EQ(errors(), "");
+  pass();
+  EXPECT_EQ(state["lastNodeId"], "n2");
+  say("order", order("A", 1, {"n3", "n4"}, 1, 4));
+  pass();
+  stop();
+  read("L3", Whereabouts{{"L2", "E"}, 5.4});
+  EXPECT_EQ(errors(), "") << "nor is the first node expected when the way is over";
+}
+
+TEST_F(SetDown, OrTurnsRound) {
+  read("L2", Whereabouts{{"L2", "E"}, 0.6});
+  say("order", order("A", 0, {"n2", "n1"}));
+  EXPECT_EQ(vehicle.task().start, Start::kBack);
+  EXPECT_EQ(left(), "n2 n1");
 }
 
 }  // namespace

@@ -160,6 +160,51 @@ TEST_F(Yard, WhoTakesTheVehicleInHandEndsItsOrder) {
   EXPECT_EQ(state["operatingMode"], "MANUAL") << "a word that nobody knows is no reason to drive";
 }
 
+TEST_F(Yard, InSomebodysHandsItForgetsWhereItIsAfterTwoSeconds) {
+  progress.here = "L1";
+  look();
+  say("order", order("A", 0, {"n1", "n2", "n3"}));
+  set_off();
+  pass();
+  condition.mode = "MANUAL";
+  progress.held = true;   // by a switch of its own, which changes nothing
+  stop();
+  look(1.8);
+  EXPECT_FALSE(vehicle.in_hand());
+  EXPECT_EQ(state["lastNodeId"], "n2") << "somebody has only looked after it";
+  look(0.2);
+  EXPECT_TRUE(vehicle.in_hand());
+  EXPECT_EQ(state["lastNodeId"], "");
+  condition.mode = "AUTOMATIC";
+  look();
+  EXPECT_FALSE(vehicle.in_hand());
+  say("order", order("B", 0, {"n6", "n7"}));
+  EXPECT_EQ(errors(), "") << "where it was counts no more";
+  begin();
+  look();
+  progress.here = "L2";
+  look();
+  EXPECT_EQ(errors(), "orderError cannotGoOn") << "nor does the crossing that it entered before";
+}
+
+TEST_F(Yard, TheModeIsTheFirstReasonToRefuseAnOrder) {
+  condition.mode = "MANUAL";
+  look();
+  say("order", order("A", 0, {"x1"}));
+  EXPECT_EQ(errors(), "orderError");
+  EXPECT_EQ(last_error(), "the vehicle is in mode MANUAL");
+}
+
+TEST_F(Yard, WhatNeedsAPersonIsFatal) {
+  progress.reports = {"Help.power", "Help.lost"};
+  progress.silent = true;
+  look();
+  EXPECT_EQ(errors(), "Help.power Help.lost robotSilent");
+  EXPECT_EQ(state["errors"][0]["errorLevel"], "FATAL");
+  EXPECT_EQ(state["errors"][1]["errorLevel"], "WARNING") << "it can be cancelled and sent elsewhere";
+  EXPECT_EQ(state["errors"][2]["errorLevel"], "FATAL");
+}
+
 TEST_F(Yard, ACancelThatIsUnderWayEndsWithTheOrder) {
   progress.here = "L1";
   look();

@@ -105,14 +105,21 @@ class Yard : public testing::Test {
       collect();
     }
   }
-  /// Sets off with the task.
-  void set_off() {
+  /// Sets off with the task, to the sign of its first landmark.
+  void begin() {
     progress.task = vehicle.task().number;
-    progress.reached = 1;
+    progress.reached = 0;
     progress.on_mission = true;
     progress.speed_m_s = 0.5;
     progress.here.clear();
+  }
+  /// The same, and on through that crossing.
+  void set_off() {
+    begin();
+    progress.reached = 1;
+    progress.in_crossing = true;
     look();
+    progress.in_crossing = false;
   }
   /// Reads the sign of the next landmark.
   void pass() {

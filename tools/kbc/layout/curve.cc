@@ -1,11 +1,18 @@
 #include "tools/kbc/layout/curve.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "tools/kbc/layout/chain.h"
 
 namespace kb::layout {
 namespace {
 
-constexpr int kSteps = 4;   // for each section
+// A road lies so near to its curve: well within what a place may be beside it (kOver_m). Half of that would make the first piece of a turn with
+// a radius of 3 m too short for a stop line, and so the whole floor larger.
+constexpr double kOff_m = 0.06;
+constexpr int kFewest = 4, kMost = 64;   // pieces of a section
+constexpr int kLooks = 8;                // at a piece, for its distance from the curve
 
 struct Weighted {
   double x, y, w;
@@ -26,6 +33,25 @@ Point at(const Spline& s, std::size_t k, double u) {
   return {end.x / end.w, end.y / end.w};
 }
 
+/// Whether the section in [knots[k], knots[k + 1]) is that near to so many pieces, equally long by its parameter.
+bool is_near(const Spline& s, std::size_t k, int pieces) {
+  const auto point = [&](int i) { return at(s, k, std::lerp(s.knots[k], s.knots[k + 1], static_cast<double>(i) / (pieces * kLooks))); };
+  for (int piece = 0; piece < pieces; ++piece) {
+    const Point a = point(piece * kLooks), b = point((piece + 1) * kLooks);
+    for (int i = 1; i < kLooks; ++i) {
+      if (nearest(point(piece * kLooks + i), a, b).distance_m > kOff_m) return false;
+    }
+  }
+  return true;
+}
+
+int pieces_of(const Spline& s, std::size_t k) {
+  if (s.degree == 1) return 1;
+  int pieces = kFewest;
+  while (pieces < kMost && !is_near(s, k, pieces)) ++pieces;
+  return pieces;
+}
+
 }  // namespace
 
 bool is_sound(const Spline& s) {
@@ -41,8 +67,8 @@ std::vector<Point> points_within(const Spline& s) {
     const double from = s.knots[k], to = s.knots[k + 1];
     if (!(from < to)) continue;
     const int first = out.empty() && k == s.degree ? 1 : 0;   // the first point of all is an end
-    const int steps = s.degree == 1 ? 1 : kSteps;
-    for (int i = first; i < steps; ++i) out.push_back(at(s, k, from + (to - from) * i / steps));
+    const int pieces = pieces_of(s, k);
+    for (int i = first; i < pieces; ++i) out.push_back(at(s, k, from + (to - from) * i / pieces));
   }
   return out;
 }

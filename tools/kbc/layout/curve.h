@@ -18,8 +18,8 @@ struct Spline {
 
 /// Whether it is a valid spline.
 [[nodiscard]] bool is_sound(const Spline& spline);
-/// Points on a sound spline, without its two ends: the corners of a polygon (degree 1), else three in each section and one between
-/// sections. De Boor's algorithm (The NURBS Book, Piegl and Tiller, A4.1, by repeated interpolation).
+/// Points on a sound spline, without its two ends: the corners of a polygon (degree 1), else as many in each section, three to 63, that it is
+/// nowhere farther than 6 cm from the straight pieces between them, and one between sections. De Boor's algorithm (The NURBS Book, Piegl and Tiller, A4.1, by repeated interpolation).
 [[nodiscard]] std::vector<Point> points_within(const Spline& spline);
 /// Where a sound spline begins and ends. That is not at its first and last point if the end knots are not repeated often enough.
 [[nodiscard]] std::pair<Point, Point> ends_of(const Spline& spline);

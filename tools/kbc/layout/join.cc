@@ -138,21 +138,44 @@ void add_pieces(const Way& way, const std::vector<Point>& chain, const std::vect
   if (ways.size() > before) ways.back().goes_on = false;
 }
 
+/// Finds one of the places kept so far that is at the spot of another place. O(log places).
+class Spots {
+ public:
+  [[nodiscard]] std::optional<std::size_t> find(Point at, const std::vector<Place>& kept) const {
+    for (const double dx : {-1.0, 0.0, 1.0}) {
+      for (const double dy : {-1.0, 0.0, 1.0}) {
+        const auto there = cells_.find({cell(at.x_m) + dx, cell(at.y_m) + dy});
+        if (there == cells_.end()) continue;
+        const auto found = std::find_if(there->second.begin(), there->second.end(), [&](std::size_t one) { return distance(kept[one].at, at) <= kOneSpot_m; });
+        if (found != there->second.end()) return *found;
+      }
+    }
+    return std::nullopt;
+  }
+  void add(Point at, std::size_t index) { cells_[{cell(at.x_m), cell(at.y_m)}].push_back(index); }
+
+ private:
+  /// A sign is read from farther away: nobody could drive from one such place to the other.
+  static constexpr double kOneSpot_m = 0.05;
+  [[nodiscard]] static double cell(double m) { return std::floor(m / kOneSpot_m); }
+  std::map<std::pair<double, double>, std::vector<std::size_t>> cells_;   // few in each, since no two are at one spot
+};
+
 /// Of places at one spot, keeps the first and gives it the ids of the others.
 std::vector<Place> one_for_each_spot(const std::vector<Place>& places, Adaptations& adaptations) {
-  const auto written = [](double m) { return std::round(m * 1e4) + 0.0; };   // rounded like point_text in write.cc
-  std::map<std::pair<double, double>, std::size_t> index;
+  Spots spots;
   std::unordered_set<std::string_view> ids;
   std::vector<Place> out;
   for (const Place& place : places) {
-    const auto [at, is_new] = index.try_emplace({written(place.at.x_m), written(place.at.y_m)}, out.size());
-    Place* const first = is_new ? nullptr : &out[at->second];
-    if (!ids.insert(place.id).second || first == nullptr) {
+    const auto first = spots.find(place.at, out);
+    if (!ids.insert(place.id).second || !first) {
+      if (!first) spots.add(place.at, out.size());
       out.push_back(place);   // if its id occurs twice, roads_of reports that
       continue;
     }
-    adaptations.note("place at the very spot of another: one landmark with it", place.span);
-    first->also.push_back(place.id);
+    const bool same = as_written(place.at.x_m) == as_written(out[*first].at.x_m) && as_written(place.at.y_m) == as_written(out[*first].at.y_m);
+    adaptations.note(same ? "place at the very spot of another: one landmark with it" : "place within 5 cm of another: one landmark with it", place.span);
+    out[*first].also.push_back(place.id);
   }
   return out;
 }

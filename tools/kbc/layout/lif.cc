@@ -102,12 +102,17 @@ class LifReader {
     };
     double lowest = limit(taken);
     if (!choice_.vehicle.empty()) return lowest;
-    bool differ = false;
+    bool differ = false, barred = false;
     for (const Json* one : of_all_types(edge)) {
-      const double other = limit(*one);
-      differ = differ || other != limit(taken);
-      if (other == 0.0 || layout::may_drive(other)) lowest = lower_limit(lowest, other);
+      const Json* speed = one->find("maxSpeed");
+      if (speed != nullptr && speed->kind == Json::Kind::kNumber && !layout::may_drive(speed->number)) {
+        barred = true;
+        continue;
+      }
+      differ = differ || limit(*one) != limit(taken);
+      lowest = lower_limit(lowest, limit(*one));
     }
+    if (barred) adaptations_.note("edge that some types of vehicles may not drive, by their maxSpeed: a road for the others; see --vehicle", id.span);
     if (differ) adaptations_.note("edge that types of vehicles may drive at different speeds: at the lowest; see --vehicle", id.span);
     return lowest;
   }

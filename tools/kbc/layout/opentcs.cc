@@ -172,8 +172,10 @@ class OpentcsReader {
     const std::string_view type = drawn.attribute("connectionType").value();
     const bool scaled = mm_for_x_ > 0.0 && mm_for_y_ > 0.0;
     if (scaled && type == "POLYPATH") return points;
-    if (!scaled || !type.starts_with("BEZIER") || points.size() % 3 != 2 || from == nullptr || to == nullptr) {
-      adaptations_.note(fmt::format("path drawn as `{}`: straight", type), span_of(drawn));
+    const bool bezier_curve = type.starts_with("BEZIER"), full = points.size() % 3 == 2;   // two between each end and the next
+    if (!scaled || !bezier_curve || !full || from == nullptr || to == nullptr) {
+      const std::string why = !scaled ? ", and the drawing has no scale" : bezier_curve && !full ? fmt::format(", with {} control points", points.size()) : "";
+      adaptations_.note(fmt::format("path drawn as `{}`{}: straight", type, why), span_of(drawn));
       return {};
     }
     points.insert(points.begin(), from->at);

@@ -36,6 +36,10 @@ class OrderReader {
   std::optional<Mission> run(const Json& root) {
     const Fields order(root, "the order", diagnostics_);
     const Json* id = order.want("orderId", Json::Kind::kString);
+    if (const Json* version = order.may("version", Json::Kind::kString); version != nullptr && !is_known(version->text)) {
+      refuse(*version, fmt::format("its version is {}, and only 2.x and 3.x are read", version->text));
+      return std::nullopt;
+    }
     const double update = order.count("orderUpdateId");
     read_links(order.objects("nodes"), "nodeId", true);
     read_links(order.objects("edges"), "edgeId", false);
@@ -60,16 +64,21 @@ class OrderReader {
       link.sequence = fields.count("sequenceId");
       const Json* released = fields.want("released", Json::Kind::kBool);
       link.released = released != nullptr && released->text == "true";
+      const bool behind = !links_.empty() && links_.back().node == node && links_.back().sequence > link.sequence;
+      if (behind) refuse(*id, fmt::format("{} stands behind {}, and has a lower sequenceId", link.name(), links_.back().name()));
       links_.push_back(link);
     }
   }
+
+  /// `2.1.0`, `3.0`.
+  static bool is_known(std::string_view version) { return version.starts_with("2.") || version.starts_with("3."); }
 
   bool refuse(const Json& at, const std::string& why) {
     diagnostics_.report(Kind::kOrderNoChain, at.span, {why});
     return false;
   }
 
-  // Sorts the links and checks that they are node, edge, node, ..., node, with all that is released first.
+  // Puts nodes and edges in one sequence and checks that they are node, edge, node, ..., node, with all that is released first.
   bool is_chain(const Json& root) {
     std::stable_sort(links_.begin(), links_.end(), [](const Link& a, const Link& b) { return a.sequence < b.sequence; });
     for (std::size_t i = 0; i < links_.size(); ++i) {

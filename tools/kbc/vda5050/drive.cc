@@ -30,8 +30,12 @@ void Vehicle::State::sense(const Progress& now, std::int64_t passed_us) {
   const auto faster = [this](double speed, double turn) { return std::abs(speed_m_s) > speed || std::abs(turn_rad_s) > turn; };
   driving = driving ? faster(kRests_m_s, kRests_rad_s) : faster(kMoves_m_s, kMoves_rad_s);
   here = now.here;
-  at = now.at || here.empty() ? now.at : Whereabouts{{here}};
-  if (!at || at->road != came_by) came_by = {};
+  at = now.at;
+  if (!at) on_road.reset();
+  else if (!at->road.exit.empty()) on_road = at;
+  const bool turned_away = at && came_by && at->outwards && !came_by->outwards;
+  if (!at || !came_by || at->road != came_by->road || turned_away) came_by.reset();
+  if (at && !at->outwards && at->road.landmark == here) came_by = at;   // at the node that it faces, though no order has led it there
   reports = now.reports;
   held = now.held;
   waits = now.waits;
@@ -48,18 +52,28 @@ void Vehicle::State::sense(const Progress& now, std::int64_t passed_us) {
   helpless_us = stood_us == 0 || reports.empty() ? 0 : helpless_us + passed_us;
 }
 
-/// An order that was believed begins elsewhere than where the robot is. Before a sign that it does not expect it would only look round, and its
-/// master would not learn why.
+/// See note [where an order is believed to begin]. Before a sign that the mission does not expect, the robot would only look round, and its master
+/// would not learn why.
 void Vehicle::State::check_first_sign() {
-  if (!believed || here.empty()) return;
+  if (in_crossing) set_down = believed = false;
+  const bool expects_next = stretch.given() && stretch.task().start == Start::kBeyond;
+  if (!believed || expects_next || here.empty() || book.nodes().empty() || here == book.nodes().front().landmark) return;
   believed = false;
-  if (book.nodes().empty() || here == book.nodes().front().landmark) return;
   const Node& first = book.nodes().front();
   const std::string node = plant.node_at(here).value_or(here);
   complain({"orderError", fmt::format("the order begins at node `{}`; the sign that the vehicle reads is that of `{}`", first.id, node), {{"orderId", book.id()}, {"orderUpdateId", std::to_string(book.update())}, {"nodeId", first.id}}});
   gave_up = active();   // an order of one node is over already
   stretch.close();
   on_mission = was_on_mission = false;
+}
+
+/// What is known of its place is what it reads.
+void Vehicle::State::forget_place() {
+  set_down = true;
+  believed = false;
+  came_by.reset();
+  if (at && at->road.exit.empty()) on_road.reset();
+  if (here.empty() && !at) book.stand_at({}, {});
 }
 
 void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
@@ -78,8 +92,9 @@ void Vehicle::State::follow(const Progress& now, std::int64_t passed_us) {
     reached = seen;
   }
   if (reached > 0 && book.goes_back()) book.come_back(), arrive();
-  for (const std::size_t node = stretch.node_at(reached); book.at() < node;) reach_next();
-  if (under_way() && !book.goes_back() && on_mission && driving) actions.trigger(ActionState::Origin::kEdge, book.edges()[book.at()].sequence);
+  for (const std::size_t node = stretch.node_at(reached); book.at() < node; believed = false) reach_next();
+  const bool left_first = reached > 0;   // until its sign is read, the first edge is not entered (6.10.2)
+  if (under_way() && left_first && !book.goes_back() && on_mission && driving) actions.trigger(ActionState::Origin::kEdge, book.edges()[book.at()].sequence);
   if (on_mission || paused) return;
   if (reached == all || (was_on_mission && stretch.ended_at(reached))) {
     stretch.close();
@@ -96,7 +111,7 @@ void Vehicle::State::reach_next() {
 }
 
 void Vehicle::State::arrive() {
-  if (at) came_by = at->road;
+  if (at) came_by = at;
   actions.trigger(ActionState::Origin::kNode, book.last_sequence());
   passed_m = 0.0;
   changed = true;
@@ -171,7 +186,7 @@ void Vehicle::State::settle() {
 /// Without an order, the last node is the one at which the robot was moved to stand.
 void Vehicle::State::stand() {
   if (active() || !stands()) return;
-  if (!here.empty() && at && at->road.landmark != here) came_by = at->road;   // remembers the road, as the sign of the landmark may be out of sight at times
+  if (!here.empty() && at && at->road.landmark != here) came_by = at;   // remembers the road, as the sign of the landmark may be out of sight at times
   if (where() == book.last_landmark()) return;
   if (std::optional<std::string> node = plant.node_at(where())) book.stand_at(std::move(*node), where());
 }

@@ -68,8 +68,9 @@ void Vehicle::State::init_position(const Action& action) {
   if (!landmark || (*landmark != behind && *landmark != standing->ahead)) {
     return decline(action, error, fmt::format("the road there leads from `{}` to `{}`, and lastNodeId is `{}`", behind, standing->ahead, last_node));
   }
-  came_by = *landmark == behind ? Visit{} : standing->on.road;   // it stands at the end of the road, at the node ahead, and begins there
-  placed = at = std::move(standing->on);
+  came_by.reset();
+  if (*landmark != behind) came_by = standing->on;   // it stands at the end of the road, at the node ahead, and begins there
+  placed = at = on_road = std::move(standing->on);
   here.clear();
   in_crossing = false;
   book.stand_at(last_node, std::move(*landmark));

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "compiler/model/speed.h"
+#include "tools/kbc/json/date_time.h"
 #include "tools/kbc/json/json.h"
 
 namespace kb::vda5050 {
@@ -71,6 +72,9 @@ class Reader {
       const Json* value = root->find(key);
       if (value != nullptr && (value->kind == Json::Kind::kNumber || value->kind == Json::Kind::kString)) references_.emplace_back(key, clipped(value->text));
     }
+    static_cast<void>(count(*root, "headerId", ""));
+    const std::string sent = text(*root, "timestamp", "");
+    if (!failed() && !json::is_date_time(sent)) return refuse(fmt::format("timestamp is `{}`, not like 2026-03-02T07:45:00.00Z", clipped(sent)));
     const std::string version = text(*root, "version", ""), maker = text(*root, "manufacturer", ""), serial = text(*root, "serialNumber", "");
     if (failed()) return std::nullopt;
     if (!is_second_version(version)) return refuse(fmt::format("version `{}` is not spoken here, but 2.0.0 and 2.1.0", clipped(version)), {{"version", clipped(version)}});
@@ -149,7 +153,8 @@ class Reader {
   }
   [[nodiscard]] const Json* need(const Json& object, const char* key, std::string_view where, Json::Kind kind) {
     const Json* value = object.find(key);
-    if (value == nullptr) wrong(fmt::format("{}{} is missing", where, key));
+    const bool null = value == nullptr && std::find(object.keys.begin(), object.keys.end(), key) != object.keys.end();
+    if (value == nullptr) wrong(fmt::format("{}{} is {}", where, key, null ? "null" : "missing"));
     else if (value->kind != kind) wrong(fmt::format("{}{} is {}, not {}", where, key, json::kind_name(value->kind), json::kind_name(kind)));
     return value != nullptr && value->kind == kind ? value : nullptr;
   }
@@ -230,9 +235,9 @@ Edge read_edge(Reader& reader, const Json& json, const std::string& where) {
 }
 
 /// Notes fields about how to drive that this vehicle ignores.
-void note_unused(const Json& list, const char* prefix, std::initializer_list<const char*> keys, std::vector<std::string>& unused) {
+void note_unused(const std::vector<const Json*>& objects, const char* prefix, std::initializer_list<const char*> keys, std::vector<std::string>& unused) {
   for (const char* key : keys) {
-    if (std::any_of(list.parts.begin(), list.parts.end(), [key](const Json& part) { return part.find(key) != nullptr; })) unused.push_back(fmt::format("{}.{}", prefix, key));
+    if (std::any_of(objects.begin(), objects.end(), [key](const Json* part) { return part->find(key) != nullptr; })) unused.push_back(fmt::format("{}.{}", prefix, key));
   }
 }
 
@@ -287,7 +292,13 @@ std::variant<Order, Complaint> read_order(std::string_view payload, const Identi
   if (!reader.failed()) check_actions(reader, order);
   if (reader.failed()) return reader.complaint();
   if (root->find("zoneSetId") != nullptr) order.unused.emplace_back("zoneSetId");
-  note_unused(*root->find("edges"), "edges", {"maxHeight", "minHeight", "orientation", "direction", "rotationAllowed", "maxRotationSpeed", "corridor"}, order.unused);
+  std::vector<const Json*> positions, edges;
+  for (const Json& edge : root->find("edges")->parts) edges.push_back(&edge);
+  for (const Json& node : root->find("nodes")->parts) {
+    if (const Json* position = node.find("nodePosition")) positions.push_back(position);
+  }
+  note_unused(positions, "nodes.nodePosition", {"theta", "allowedDeviationTheta"}, order.unused);
+  note_unused(edges, "edges", {"maxHeight", "minHeight", "orientation", "direction", "rotationAllowed", "maxRotationSpeed", "corridor"}, order.unused);
   return order;
 }
 

@@ -17,6 +17,7 @@ namespace {
 using Out = nlohmann::ordered_json;
 
 constexpr std::size_t kMostReports = 20;
+constexpr std::string_view kWaitsForButton = "Help.power";   // not a report of the knowledge base: while it holds, the robot obeys nobody
 
 Out header(const Identity& identity, std::uint32_t id, std::int64_t utc_us) {
   return {{"headerId", id}, {"timestamp", timestamp(utc_us)}, {"version", "2.1.0"}, {"manufacturer", identity.manufacturer}, {"serialNumber", identity.serial}};
@@ -100,9 +101,9 @@ Shown Vehicle::State::shown() const {
 
 /// Adds where the robot is, and how fast it moves.
 void Vehicle::State::add_motion(Out& out) {
-  if (const std::optional<Pose> pose = at ? plant.pose(*at) : std::nullopt) {
-    if (!at->road.exit.empty()) theta_rad = pose->theta_rad;   // in a crossing it keeps its last value
-    out["agvPosition"] = {{"positionInitialized", true}, {"x", rounded(pose->x_m)}, {"y", rounded(pose->y_m)}, {"theta", rounded(theta_rad)}, {"mapId", plant.map_id()}};
+  const std::optional<Pose> pose = at ? plant.pose(*at) : std::nullopt, faces = on_road ? plant.pose(*on_road) : std::nullopt;
+  if (pose && faces) {
+    out["agvPosition"] = {{"positionInitialized", true}, {"x", rounded(pose->x_m)}, {"y", rounded(pose->y_m)}, {"theta", rounded(faces->theta_rad)}, {"mapId", plant.map_id()}};
   }
   out["velocity"] = {{"vx", rounded(speed_m_s)}, {"vy", 0.0}, {"omega", rounded(turn_rad_s)}};
 }
@@ -125,8 +126,8 @@ void Vehicle::State::send_state(std::int64_t utc_us) {
 
   Out errors = Out::array();
   for (const Complaint& complaint : complaints) errors.push_back(error(complaint));
-  for (std::size_t i = 0; i < reports.size() && i < kMostReports; ++i) errors.push_back(error({reports[i], "the robot reports " + reports[i]}));
-  if (silent) errors.push_back(error({"robotSilent", "nothing is heard from the robot, or it takes no answers; its base has stopped it"}));
+  for (std::size_t i = 0; i < reports.size() && i < kMostReports; ++i) errors.push_back(error({reports[i], "the robot reports " + reports[i], {}, reports[i] == kWaitsForButton}));
+  if (silent) errors.push_back(error({"robotSilent", "nothing is heard from the robot, or it takes no answers; its base has stopped it", {}, true}));
   if (gave_up) errors.push_back(error({"cannotGoOn", "the robot has given up its way; cancelOrder frees it", {{"orderId", book.id()}, {"orderUpdateId", std::to_string(book.update())}}, true}));
   out["errors"] = std::move(errors);
   Out infos = Out::array();

@@ -44,7 +44,9 @@ void Vehicle::observe(const Progress& progress, const Condition& condition, cons
   const std::int64_t passed_us = std::max<std::int64_t>(utc_us - state.now_us, 0);   // if the clock was set back, no time has passed
   state.actions.pass(passed_us);
   state.now_us = utc_us;
+  state.by_hand_us = state.obeys() ? 0 : state.by_hand_us + passed_us;
   state.follow(progress, passed_us);
+  if (state.in_hand()) state.forget_place();
   state.settle();
   state.stand();
   state.finish(utc_us);
@@ -53,6 +55,7 @@ void Vehicle::observe(const Progress& progress, const Condition& condition, cons
 const Task& Vehicle::task() const { return state_->stretch.task(); }
 std::optional<Whereabouts> Vehicle::take_place() { return std::exchange(state_->placed, std::nullopt); }
 bool Vehicle::obeys() const { return state_->obeys(); }
+bool Vehicle::in_hand() const { return state_->in_hand(); }
 std::vector<HostAction> Vehicle::host_actions() const { return state_->actions.host_actions(); }
 std::vector<Message> Vehicle::take_messages() { return std::exchange(state_->outbox, {}); }
 Message Vehicle::farewell(std::int64_t utc_us) { return connection_message(state_->identity, "OFFLINE", state_->connections++, utc_us); }
@@ -84,6 +87,7 @@ void Vehicle::State::take_order(const std::string& payload) {
   auto read = read_order(payload, identity);
   if (auto* complaint = std::get_if<Complaint>(&read)) return complain(std::move(*complaint));
   auto& order = std::get<Order>(read);
+  if (!obeys()) return complain({"orderError", "the vehicle is in mode " + condition.mode, {{"topic", "order"}, {"orderId", order.id}, {"orderUpdateId", std::to_string(order.update)}}});
   OrderBook::Judgement judgement = book.judge(order, plant, active(), where(), beyond());
   using Verdict = OrderBook::Verdict;
   if (judgement.verdict == Verdict::kKnown) return;   // the master has sent it again, as it does if it gets no answer (6.6.4.3)
@@ -112,21 +116,21 @@ void Vehicle::State::complain_of_late(const Order& order) {
 }
 
 void Vehicle::State::begin(Order order) {
-  believed = where().empty();   // just switched on, it has yet to come to the first node
+  believed = set_down;
+  const bool comes_to_first = beyond() != nullptr || where().empty();   // by turning round, or because nobody knows where it is
   actions.forget_order();
   actions.plan(order.nodes, order.edges, true);
   stretch.close();
   gave_up = on_mission = was_on_mission = false;
   passed_m = 0.0;
   book.begin(std::move(order));
-  if ((beyond() != nullptr || believed) && !book.nodes().front().actions.empty()) book.go_back();   // see note [beyond a node]
+  if (comes_to_first && !book.nodes().front().actions.empty()) book.go_back();   // see note [beyond a node]
   else actions.trigger(ActionState::Origin::kNode, book.last_sequence());
 }
 
-/// Why a valid order is not taken all the same. The vehicle may be driven by others, or unable to set off from where it stands, or unable to do
-/// an action (6.6.4.2), or an action may have the id of another.
+/// Why a valid order is not taken all the same. The vehicle may be unable to set off from where it stands, or unable to do an action (6.6.4.2), or
+/// an action may have the id of another.
 std::optional<Complaint> Vehicle::State::object_to(const Order& order, bool update) const {
-  if (!obeys()) return Complaint{"orderError", "the vehicle is in mode " + condition.mode, {{"orderId", order.id}}};
   if (cancelling) return Complaint{"orderUpdateError", "the order is being cancelled", {{"orderId", order.id}}};
   if (in_crossing && !update) {
     return Complaint{"noRouteError", fmt::format("the vehicle stands in the crossing of `{}`, where no order can begin: put it on a road, and tell it so by mode MANUAL or initPosition", book.last_node()), {{"orderId", order.id}}};

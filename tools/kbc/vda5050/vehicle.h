@@ -11,6 +11,12 @@
 // An order may end between two nodes: it is dropped, or the robot cannot go on. The next order begins at the node behind the robot. If it
 // continues along the road on which the robot stands, with nothing to do at that node, the robot drives on. Otherwise it turns round and
 // comes to the node again, which until then is one of the nodes left to drive.
+//
+// note [where an order is believed to begin]
+// A vehicle that was switched on or set down by hand takes its order's word for where it is, and that it faces the first node. It may be
+// wrong in both, and its sign alone cannot tell: it is read from either side. So until it enters a crossing, the sign of any other node
+// ends the order: the robot would take that node's crossing for the first one's, and drive where nothing is released. If it knows that
+// the first node is behind it, it expects the next sign.
 #pragma once
 
 #include <array>
@@ -67,7 +73,7 @@ struct Progress {
   bool held = false;               ///< a switch on its back holds it
   bool waits = false;              ///< a rule of its own holds it until something is done
   bool stopped = false;            ///< it has stood at a stop line for a while, and reports nothing yet: the crossing is not safe, or its ways on are closed
-  std::optional<Whereabouts> at = {};  ///< where it is; without an exit in a crossing. Nothing: unknown
+  std::optional<Whereabouts> at = {};  ///< where it is, by its sign or the road behind it; without an exit in a crossing. Nothing: unknown
   bool in_crossing = false;        ///< past its stop line
   bool silent = false;             ///< the robot has fallen silent: all else is as last heard, and its base has stopped it
 };
@@ -107,6 +113,8 @@ class Vehicle {
   [[nodiscard]] std::optional<Whereabouts> take_place();
   /// Whether in its mode it drives by itself and is not driven by hand.
   [[nodiscard]] bool obeys() const;
+  /// Whether it has been driven by hand, or carried, for so long that the robot has to forget where it is.
+  [[nodiscard]] bool in_hand() const;
   /// The actions to be done now, in the order of their beginning.
   [[nodiscard]] std::vector<HostAction> host_actions() const;
   /// The messages to send, oldest first; each is given once.

@@ -30,7 +30,7 @@ struct Shown {
 };
 
 struct Vehicle::State {
-  static constexpr std::int64_t kHelplessUs = 3'000'000, kStandsInCrossingUs = 60'000'000;
+  static constexpr std::int64_t kHelplessUs = 3'000'000, kStandsInCrossingUs = 60'000'000, kByHandUs = 2'000'000;
 
   State(Identity who, std::vector<Skill> skills, const Plant& roads, Sheet about)
       : identity(std::move(who)), plant(roads), sheet(std::move(about)), actions(std::move(skills)) {}
@@ -52,6 +52,7 @@ struct Vehicle::State {
   void follow(const Progress& now, std::int64_t passed_us);
   void sense(const Progress& now, std::int64_t passed_us);
   void check_first_sign();
+  void forget_place();
   void reach_next();
   void arrive();
   void drive();
@@ -69,10 +70,12 @@ struct Vehicle::State {
   /// Where it is beyond a node, see note [beyond a node]; null if it is not.
   [[nodiscard]] const Whereabouts* beyond() const;
   /// Whether it is on a road, and not at the end by which it came to the last node.
-  [[nodiscard]] bool left_node() const { return at && !at->road.exit.empty() && at->road != came_by; }
+  [[nodiscard]] bool left_node() const { return at && !at->road.exit.empty() && !(came_by && came_by->road == at->road); }
   void begin_stretch();
   [[nodiscard]] std::string where() const;
   [[nodiscard]] bool obeys() const { return condition.mode == kModes[0] || condition.mode == kModes[1]; }
+  /// Driven by hand, or carried, for so long that it may be anywhere.
+  [[nodiscard]] bool in_hand() const { return by_hand_us >= kByHandUs; }
   [[nodiscard]] bool base_request() const { return book.has_horizon() && book.at() + 1 >= book.base_end(); }
 
   // instruct.cc
@@ -106,7 +109,9 @@ struct Vehicle::State {
   std::vector<std::string> reports;
   std::int64_t stood_us = 0, helpless_us = 0;        // how long it has stood without a break, and of that with reports
   std::string here, own_mission;
-  bool believed = false;                             // the place where its order begins was not known, and no sign has been read since
+  std::int64_t by_hand_us = 0;                       // how long it has been in a mode in which it does not obey
+  bool set_down = true;                              // since it was switched on or in somebody's hands it has entered no crossing
+  bool believed = false;                             // its order was taken so, see note [where an order is believed to begin]
   bool held = false, waits = false, stopped = false; // held by a switch on the robot; waits because of its own rules; at a stop line
   bool in_crossing = false, silent = false;
   double speed_m_s = 0.0, turn_rad_s = 0.0, since_m = 0.0;
@@ -115,8 +120,8 @@ struct Vehicle::State {
   std::size_t reached = 0;                           // how many visits of the task's way
   double passed_m = 0.0;                             // from the last node to the last visit
   std::optional<Whereabouts> at;                     // its place; nothing if it is unknown
-  Visit came_by;                                     // while it stands at the landmark reached last: the road by which it came
-  double theta_rad = 0.0;                            // the heading sent last
+  std::optional<Whereabouts> came_by;                // while it is at the landmark reached last: where on the road by which it came
+  std::optional<Whereabouts> on_road;                // its place on a road last, whose heading it keeps in a crossing; nothing: its place was unknown since
   std::optional<Whereabouts> placed;                 // the place given by the master, not yet passed on to the robot
 
   bool paused = false, cancelling = false, gave_up = false;

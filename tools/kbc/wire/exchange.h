@@ -85,6 +85,8 @@ class Exchange {
   }
   /// Whether the robot is never carried between two missions: see sim::Driver::keep_place.
   void keep_place(bool keeps) { driver_.keep_place(keeps); }
+  /// The robot may be anywhere, since the last line: see sim::Driver::forget_place.
+  void forget_place() { driver_.forget_place(); }
   /// Puts the robot on the road that leaves `landmark` by `exit`, `along_m` of the floor from it, facing away. Both must exist on the floor.
   void put(std::string_view landmark, std::string_view exit, double along_m);
   [[nodiscard]] const sim::Driver& driver() const { return driver_; }

@@ -1,0 +1,1 @@
+# RUN: kbc import lif %d/plant.json | grep "landmark\|road "
