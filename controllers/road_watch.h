@@ -39,7 +39,10 @@ class RoadWatch {
   /// Whether the robot is never carried between two missions: then it keeps its place.
   void keep_place(bool keeps) noexcept { keeps_place_ = keeps; }
   /// The robot may be anywhere: only the sign that it reads now still counts, by the compass of now.
-  void forget(Pilot& pilot) noexcept { forget_place(pilot), forget_unread_sign(); }
+  void forget(Pilot& pilot) noexcept {
+    forget_place(pilot);
+    if (unread_s_ >= kReadingLasts_s) forget_sign();
+  }
 
   /// Each period, after the pilot's `step`. `sign`: what is read now; null: nothing. A robot that was carried, or that has rested for two
   /// seconds, has its pilot forget the place.
@@ -95,8 +98,7 @@ class RoadWatch {
   }
   /// How the road ahead is driven, by the map; "" if it is not known, or not where the robot is now.
   [[nodiscard]] const char* move_by() const noexcept {
-    if (leg_ == nullptr || (!crosses_ && leg_ != road_)) return "";
-    return leg_->by;
+    return leg_ == nullptr || (!crosses_ && leg_ != road_) ? "" : leg_->by;
   }
 
   /// Whether a controller drives that follows a road.
@@ -198,8 +200,7 @@ class RoadWatch {
     if (!lifted_.now()) return;
     forget_place(pilot);
     pilot.set_down(lifted_.facing_rad());
-    sign_ = {};
-    at_ = At::kNowhere;
+    forget_sign();
     carried_s_ = kSaysCarried_s;
   }
   void forget_place(Pilot& pilot) noexcept {
@@ -209,7 +210,7 @@ class RoadWatch {
     rounding_ = guided_ = crosses_ = turned_back_ = met_line_ = begins_on_road_ = awaits_out_ = false;
     beside_m_ = 0.0f;
   }
-  void forget_unread_sign() noexcept { if (unread_s_ >= kReadingLasts_s) sign_ = {}, at_ = At::kNowhere; }
+  void forget_sign() noexcept { sign_ = {}; at_ = At::kNowhere; }
   /// Between two missions somebody may carry the robot to where the next one is to begin, and its wheels do not notice.
   void rest(Pilot& pilot, float dt) noexcept {
     const bool rests = pilot.line() == nullptr && pilot.road_of_leg() == nullptr;
@@ -222,7 +223,7 @@ class RoadWatch {
     drove_ = false;
     without_line_m_ = 0.0f;
     obstacle_sight_.rest();
-    forget_unread_sign();
+    if (unread_s_ >= kReadingLasts_s) forget_sign();
   }
 
   void hear_crossing() noexcept {
@@ -245,8 +246,7 @@ class RoadWatch {
     if (sign != nullptr) read(pilot, *sign, dt);
     const bool passed = (at_ == At::kLeaving && unread_s_ > kReadingLasts_s && since_m_ > kLeft_m) || (at_ == At::kApproach && since_m_ > kApproachLasts_m) ||
                         (at_ == At::kCrossing && since_m_ > kCrossingLasts_m);
-    if (passed) at_ = At::kNowhere;
-    if (at_ == At::kNowhere) sign_ = {};
+    if (passed || at_ == At::kNowhere) forget_sign();
     turned_from_sign_ = turned_back_ && at_ == At::kLeaving;
   }
   void read(const Pilot& pilot, const SignRead& sign, float dt) noexcept {
@@ -266,10 +266,9 @@ class RoadWatch {
     if (unread_s_ > kReadingLasts_s) without_line_m_ = 0.0f;   // the robot comes to the sign anew
     sign_ = sign;
     unread_s_ = since_m_ = 0.0f;
-    if (moves_) {
-      came_rad_ = here_.heading_rad;
-      came_known_ = pilot.place().heading_known();
-    }
+    if (!moves_) return;
+    came_rad_ = here_.heading_rad;
+    came_known_ = pilot.place().heading_known();
   }
   /// Where its road begins lies the sign of the landmark that it leaves, so one that names another is misread, or a neighbour's.
   [[nodiscard]] bool misreads_begin(const Pilot& pilot, const SignRead& sign) const noexcept {
