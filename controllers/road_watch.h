@@ -362,8 +362,7 @@ class RoadWatch {
   static constexpr float kBehind_m = ObstacleSight::kBehind_m;
   static constexpr float kRoadOff_m = 0.35f, kComesBack_m = 0.8f, kAside_m = 0.12f, kBackInMiddle_m = 1.0f, kLineBehind_m = 0.3f;
   static constexpr float kPassedRound_m = 0.3f, kPassed_m = 0.05f, kAlongRoad_rad = 0.5f;
-  static constexpr float kStarReaches_m = 0.1f, kApart_m = 0.35f;
-  static constexpr float kDue_m = 0.35f, kPassedEnd_m = 0.12f, kDrift = 0.03f;
+  static constexpr float kStarReaches_m = 0.1f, kApart_m = 0.35f, kDue_m = 0.35f, kPassedEnd_m = 0.12f, kDrift = 0.03f;
   static constexpr float kAlong_rad = 0.7f, kAcross_rad = 1.3f, kTurnedTo_rad = 0.17f, kHalfTurn_rad = 2.96f, kClear_s = 4.0f;
   static constexpr float kInOrOut = 0.35f, kReads_s = 0.25f, kReadingLasts_s = 0.25f, kApproachLasts_m = 0.8f, kCrossingLasts_m = 3.0f;
   static constexpr float kLeft_m = 0.05f, kFromLine_m = 0.2f, kSignReach_m = 0.6f, kSignToLine_m = 0.7f, kFades_1_m = 0.15f;

@@ -334,15 +334,17 @@ void Scanner::foreign_comment(bool block) {
 
 // `import 'map.kb'`: the mark and what it encloses are one mistake. Elsewhere names are meant, and each mark is one.
 bool Scanner::foreign_quote() {
-  constexpr std::string_view kMarks = "'\"";
   const bool import = !out_.tokens.empty() && out_.tokens.back().kind == TokenKind::kImport;
   const std::size_t begin = static_cast<std::size_t>(cursor_ - first_), end = std::min(text_.find_first_of("\r\n#", begin), text_.size());
-  std::string_view path = source::trimmed(std::string_view(text_).substr(begin, end - begin));
-  while (!path.empty() && (kMarks.find(path.back()) != std::string_view::npos || static_cast<unsigned char>(path.back()) >= 0x80)) path.remove_suffix(1);
+  const std::string_view rest = source::trimmed(std::string_view(text_).substr(begin, end - begin));
+  std::size_t closes = rest.find_first_of("'\"");
+  for (const std::string_view mark : {"\u2018", "\u2019", "\u201a", "\u201b", "\u201c", "\u201d", "\u201e", "\u201f", "\u00ab", "\u00bb"}) closes = std::min(closes, rest.find(mark));
+  const std::string_view path = source::trimmed(rest.substr(0, closes));
   if (!import || path.empty()) return bad_text(Kind::kForeignQuote, begin_);
   cursor_ = first_ + end;
   while (cursor_[-1] == ' ' || cursor_[-1] == '\t') --cursor_;
-  return error(Kind::kForeignQuotes, span(), std::string(text()), std::string(path));
+  const bool library = path.starts_with("std.") && !path.ends_with(".kb");
+  return error(Kind::kForeignQuotes, span(), std::string(text()), library ? std::string(path) : "\"" + std::string(path) + "\"");
 }
 
 void Scanner::identifier() {

@@ -57,7 +57,8 @@ std::string general_text(Kind kind) {
     const std::size_t end = text.find('}', at);
     const std::size_t number = end == at + 1 ? automatic++ : static_cast<std::size_t>(text[at + 1] - '0');
     letters.resize(std::max(letters.size(), number + 1));
-    if (code && letters[number].empty()) letters[number] = static_cast<char>('A' + named++);
+    const bool sign = code && end + 1 < text.size() && text[end + 1] >= 'a' && text[end + 1] <= 'z';   // `{2}sat A`: it may be missing
+    if (code && !sign && letters[number].empty()) letters[number] = static_cast<char>('A' + named++);
     if (code) out += letters[number];
     else if (!out.ends_with("...")) out += "...";   // one stand-in for words that follow each other
     at = end;

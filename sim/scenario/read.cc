@@ -54,6 +54,14 @@ void read_build(TomlTable& sensors, SensorId id, Scenario& scenario) {
 /// The keys of the robot that are forgotten to be its own. read_body reads them.
 constexpr std::array<std::string_view, 10> kRobotKeys{"size", "radius", "wheel_base", "speed", "acceleration", "turn", "slip", "slip_mean", "wheel_mismatch", "motor_lag"};
 
+/// Rules wait for seconds of the clock, whatever the robot: who goes round a crate for longer than a minute is blocked to `std.care`.
+void warn_of_weakness(TomlTable& robot, const mts::Body& body) {
+  constexpr float kWellKnown = 2.5f;
+  const float slow = mts::Similarity::slowness(body), times = mts::Similarity(body).of("s");
+  if (slow == 1.0f || times <= kWellKnown) return;
+  robot.diagnostics().report(Kind::kSimWeak, robot.span(), {fmt::format("{:.2g}", times)});
+}
+
 /// Reads lengths and limits of the robot; the world, the wheels and the controllers all take these.
 void read_body(TomlTable& robot, Scenario& scenario) {
   mts::Body& body = scenario.body;
@@ -65,7 +73,7 @@ void read_body(TomlTable& robot, Scenario& scenario) {
   static_cast<void>(robot.has("size"));   // read_floor has read it
   set("radius", {0.06 * size, 0.2 * size}, radius_m);
   set("wheel_base", {0.05 * size, 2.0 * radius_m}, drive.wheel_base_m);
-  set("speed", {0.05, 1.5 * fast}, drive.speed_m_s);
+  set("speed", {0.05 * fast, 1.5 * fast}, drive.speed_m_s);
   set("acceleration", {0.1, 10.0}, drive.acceleration_m_s2);
   set("turn", {0.3 * static_cast<double>(as.of("rad/s")), 10.0}, drive.turn_rad_s);
   set("slip", {0.0, 0.3}, drive.slip);
@@ -78,6 +86,7 @@ void read_body(TomlTable& robot, Scenario& scenario) {
   body.top_speed_m_s = static_cast<float>(drive.speed_m_s);
   body.top_acceleration_m_s2 = static_cast<float>(drive.acceleration_m_s2);
   body.top_turn_rad_s = static_cast<float>(drive.turn_rad_s);
+  warn_of_weakness(robot, body);
 }
 
 // note [a row and its lines]

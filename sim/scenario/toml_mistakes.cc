@@ -68,13 +68,14 @@ std::string behind_number(const Place& place) {
 }
 
 /// A key or a table that is there twice.
-std::string twice(const Place& place, std::string_view description) {
+std::string twice(const Place& place, std::string_view description, bool in_event) {
   if (description.find("redefine") == std::string_view::npos) return {};
   const std::string_view before = place.before(), line = source::trimmed(place.line);
   if (line.starts_with('[')) return fmt::format("`{}` is there twice; one table says all of it", line.substr(0, line.find('#')));
   const std::size_t key = before.find_last_of("{,") + 1, equals = before.rfind('=');   // npos + 1 is 0
   if (equals == std::string_view::npos || equals < key) return {};
-  return fmt::format("`{}` stands twice in one table; an event does one thing, and each has an `[[event]]` of its own", source::trimmed(before.substr(key, equals - key)));
+  const std::string_view events = in_event ? "; an event does one thing, and each has an `[[event]]` of its own" : "";
+  return fmt::format("`{}` stands twice in one table{}", source::trimmed(before.substr(key, equals - key)), events);
 }
 
 }  // namespace
@@ -89,7 +90,10 @@ std::string toml_mistake(std::string_view bytes, std::size_t at, std::string_vie
   if (rest.starts_with("//")) return "a comment begins with `#`, not with `//`";
   if (rest.starts_with(';')) return "no `;` ends a line";
   if (rest.starts_with(':')) return "`=` stands between a key and its value, not `:`";
-  if (std::string known = twice(place, description); !known.empty()) return known;
+  const std::string_view above = bytes.substr(0, std::min(at, bytes.size()));
+  const std::size_t header = above.rfind("\n[");
+  const bool in_event = above.substr(header == std::string_view::npos ? 0 : header + 1).starts_with("[[event]]");
+  if (std::string known = twice(place, description, in_event); !known.empty()) return known;
   if (std::string known = behind_number(place); !known.empty()) return known;
   if (std::string known = bare_text(place); !known.empty()) return known;
   if (place.before().ends_with('=') && source::trimmed(rest).empty()) return "a value is missing behind `=`";

@@ -33,7 +33,8 @@ def build_with_cmake(options, prefix, scratch, generator):
     project, build = os.path.join(scratch, "project"), os.path.join(scratch, f"with {generator}")
     cmake = options.cmake
     out = run(cmake, "-S", project, "-B", build, "-G", generator, f"-DCMAKE_PREFIX_PATH={prefix}",
-              f"-DCMAKE_CXX_COMPILER={options.compiler}", X not in out, f"{generator}: the package is found without a warning")
+              f"-DCMAKE_CXX_COMPILER={options.compiler}", f"-DROUTE1={options.route1}", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")
+    expect("Warning" not in out, f"{generator}: the package is found without a warning")
     twice = subprocess.run([cmake, "-S", project, "-B", build + " twice", "-G", generator, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DROUTE1={options.route1}",
                             "-DTWICE=ON"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     said = " ".join(twice.stdout.split())   # CMake breaks lines
@@ -78,7 +79,8 @@ def check_with_clang(build):
         commands = json.load(file)
     of_gcc = {"-Wuseless-cast", "-Wduplicated-cond", "-Wduplicated-branches", "-Wlogical-op"}
     for one in commands:
-        words = [word for word in shlex.split(one["command"])[1:] if word not in of_gcc]
+        words = [word for word in shlex.split(one["command"]) if word not in of_gcc]
+        words = words[next(i for i, word in enumerate(words) if word.startswith("-")):]   # behind the compiler, and what may launch it
         at = words.index("-o")
         run("clang++", "-fsyntax-only", "-Wcomma", "-Wextra-semi-stmt", "-Wheader-hygiene", *words[:at], *words[at + 2:], cwd=one["directory"])
     print(f"ok: clang++ reads {len(commands)} files without a warning")

@@ -93,8 +93,11 @@ TEST(Similarity, WhatIsWeakestTellsHowSlowARobotIs) {
   robot.top_acceleration_m_s2 = 0.01f;
   EXPECT_EQ(Similarity::slowness(robot), Similarity::kSlowest);
   for (const float odd : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
-    robot.top_acceleration_m_s2 = odd;
-    EXPECT_EQ(Similarity::slowness(robot), Similarity::kSlowest) << odd;
+    for (float Body::* limit : {&Body::top_acceleration_m_s2, &Body::top_turn_rad_s, &Body::top_speed_m_s, &Body::size}) {
+      Body broken;
+      broken.*limit = odd;
+      EXPECT_EQ(Similarity::slowness(broken), Similarity::kSlowest) << odd;
+    }
   }
 }
 

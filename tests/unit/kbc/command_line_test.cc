@@ -122,7 +122,7 @@ TEST(CommandLine, ends_with_2_if_it_cannot_be_understood) {
     ::testing::internal::GetCapturedStderr();
     return code;
   };
-  EXPECT_EQ(run({"kbc"}), kClean);
+  EXPECT_EQ(run({"kbc"}), kUsage);
   EXPECT_EQ(run({"kbc", "--version"}), kClean);
   EXPECT_EQ(run({"kbc", "check", "--help"}), kClean);
   EXPECT_EQ(run({"kbc", "chek"}), kUsage);

@@ -141,16 +141,21 @@ void add_pieces(const Way& way, const std::vector<Point>& chain, const std::vect
 /// Finds one of the places kept so far that is at the spot of another place. O(log places).
 class Spots {
  public:
+  /// The nearest one.
   [[nodiscard]] std::optional<std::size_t> find(Point at, const std::vector<Place>& kept) const {
+    std::optional<std::size_t> nearest;
+    double least_m = kOneSpot_m;
     for (const double dx : {-1.0, 0.0, 1.0}) {
       for (const double dy : {-1.0, 0.0, 1.0}) {
         const auto there = cells_.find({cell(at.x_m) + dx, cell(at.y_m) + dy});
         if (there == cells_.end()) continue;
-        const auto found = std::find_if(there->second.begin(), there->second.end(), [&](std::size_t one) { return distance(kept[one].at, at) <= kOneSpot_m; });
-        if (found != there->second.end()) return *found;
+        for (const std::size_t one : there->second) {
+          const double away_m = distance(kept[one].at, at);
+          if (away_m < least_m || (away_m == least_m && !nearest)) nearest = one, least_m = away_m;
+        }
       }
     }
-    return std::nullopt;
+    return nearest;
   }
   void add(Point at, std::size_t index) { cells_[{cell(at.x_m), cell(at.y_m)}].push_back(index); }
 
