@@ -40,7 +40,7 @@ class Pilot {
 
  public:
   /// `body`: the robot's own, in its own metres, whatever its size. `host`: see AnyController::choose.
-  explicit Pilot(const Body& body = {}, const Host& host = {}) noexcept : as_(body), sees_(Similarity::of_brakes(body)), body_(as_.in(body)), host_(host), place_(body) {}
+  explicit Pilot(const Body& body = {}, const Host& host = {}) noexcept : as_(body), sees_(Similarity::of_brakes(body)), seen_(as_.after(sees_)), body_(as_.in(body)), host_(host), place_(body) {}
 
   /// Whether it can drive by this line. kUnknown: there is no such controller, or it has no such parameter; kOutside: no body of this size can
   /// have that value, the word is none of the parameter's, or the unit is another. To be asked of each strategy before the robot drives.
@@ -66,7 +66,7 @@ class Pilot {
   /// What the wheels are to do until the next period. Takes one sample of the sensors, raw and in metres of the robot; `dt_s`: see AnyController::step.
   [[nodiscard]] Motion step(const Senses& senses, float dt_s) noexcept {
     const float dt = as_.in(dt_s, "s");
-    heard_ = mts::heard(as_.after(sees_).in(steady_.step(sees_.in(senses), sees_.in(dt_s, "s"))), body_);
+    heard_ = mts::heard(seen_.in(steady_.step(sees_.in(senses), sees_.in(dt_s, "s"))), body_);
     const Senses& steady = heard_;
     place_.step(steady, sane_period(dt));
     if (!in_crossing()) place_.settle(steady, sane_period(dt));
@@ -350,7 +350,7 @@ class Pilot {
 
   static constexpr float kElsewhere_rad = 70.0f * kRadPerDeg, kForgets_m = 0.3f, kEndless_m = 1e3f, kBackInMiddle_m = 1.0f, kWayOut_m = 0.2f, kAlong_rad = 0.5f;
 
-  Similarity as_, sees_;                      // all, and the part that range finders hear first: see Similarity::of_brakes
+  Similarity as_, sees_, seen_;               // all; the part that range finders are steadied in, see Similarity::of_brakes; the rest
   Body body_;                                 // of size 1, as the controllers know it
   Host host_;
   SteadyRanges steady_;

@@ -40,15 +40,15 @@ class Similarity {
   /// By size alone.
   [[nodiscard]] constexpr Similarity of_size() const noexcept { return Similarity(length_, 1.0f); }
   /// By size and brakes: how early it has to notice who comes. People are no slower for a robot that only turns slowly.
-  [[nodiscard]] static constexpr Similarity of_brakes(const Body& robot) noexcept { return Similarity(robot.size, robot.top_acceleration_m_s2 > 0.0f ? clamped(square_root(kQuick_m_s2 / robot.top_acceleration_m_s2), 1.0f, kSlowest) : kSlowest); }
+  [[nodiscard]] static constexpr Similarity of_brakes(const Body& robot) noexcept { return Similarity(robot.size, slowness_of_brakes(robot)); }
   /// What is left to convert where `part` has converted already.
   [[nodiscard]] constexpr Similarity after(const Similarity& part) const noexcept { return Similarity(length_ / part.length_, slow_ / part.slow_); }
   /// How many times as long all takes: 1 for a quick robot, at most `kSlowest`. See note [slow wheels take longer].
   [[nodiscard]] static constexpr float slowness(const Body& robot) noexcept {
     const float root = square_root(robot.size);   // speeds grow with it, turning rates shrink
-    if (!(robot.top_acceleration_m_s2 > 0.0f && robot.top_turn_rad_s > 0.0f && robot.top_speed_m_s > 0.0f && root > 0.0f)) return kSlowest;   // nor NaN
-    const float slow = greatest(square_root(kQuick_m_s2 / robot.top_acceleration_m_s2), greatest(kQuick_rad_s / (robot.top_turn_rad_s * root), kQuick_m_s * root / robot.top_speed_m_s));
-    return clamped(slow, 1.0f, kSlowest);
+    if (!(robot.top_turn_rad_s > 0.0f && robot.top_speed_m_s > 0.0f && root > 0.0f)) return kSlowest;   // nor NaN
+    const float slow = greatest(slowness_of_brakes(robot), greatest(kQuick_rad_s / (robot.top_turn_rad_s * root), kQuick_m_s * root / robot.top_speed_m_s));
+    return least(slow, kSlowest);
   }
   static constexpr float kQuick_m_s2 = 1.0f, kQuick_rad_s = 1.0f, kQuick_m_s = 0.2f, kSlowest = 4.0f;
 
@@ -89,6 +89,9 @@ class Similarity {
 
  private:
   constexpr Similarity(float size, float slow) noexcept : length_(size), time_(square_root(size) * slow), slow_(slow) {}
+  [[nodiscard]] static constexpr float slowness_of_brakes(const Body& robot) noexcept {
+    return robot.top_acceleration_m_s2 > 0.0f ? clamped(square_root(kQuick_m_s2 / robot.top_acceleration_m_s2), 1.0f, kSlowest) : kSlowest;
+  }
   [[nodiscard]] static constexpr Body scaled(Body body, float length, float time, float slow) noexcept {
     body.size *= length;
     body.top_acceleration_m_s2 /= slow * slow;

@@ -79,7 +79,7 @@ class Scanner {
     first_ = reinterpret_cast<const unsigned char*>(text_.data());
     limit_ = first_ + text_.size();
     cursor_ = first_;
-    if (text_.starts_with("\xEF\xBB\xBF")) cursor_ += 3;
+    if (text_.starts_with(source::kByteOrderMark)) cursor_ += source::kByteOrderMark.size();
     out_.tokens.reserve(text_.size() / 4 + 2);
   }
 
@@ -338,7 +338,7 @@ bool Scanner::foreign_quote() {
   const std::size_t begin = static_cast<std::size_t>(cursor_ - first_), end = std::min(text_.find_first_of("\r\n#", begin), text_.size());
   const std::string_view rest = source::trimmed(std::string_view(text_).substr(begin, end - begin));
   std::size_t closes = rest.find_first_of("'\"");
-  for (const std::string_view mark : {"\u2018", "\u2019", "\u201a", "\u201b", "\u201c", "\u201d", "\u201e", "\u201f", "\u00ab", "\u00bb"}) closes = std::min(closes, rest.find(mark));
+  for (const std::string_view mark : source::kForeignQuotes) closes = std::min(closes, rest.find(mark));
   const std::string_view path = source::trimmed(rest.substr(0, closes));
   if (!import || path.empty()) return bad_text(Kind::kForeignQuote, begin_);
   cursor_ = first_ + end;

@@ -8,7 +8,13 @@
 
 namespace kb::source {
 
-/// Known by the byte order mark, or by one NUL among the first two bytes: text has no NUL, and begins with ASCII even in UTF-16.
+/// What may stand at the beginning of UTF-8, and is no text.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+/// The quotation marks of word processors, single ones and pairs.
+inline constexpr std::string_view kForeignQuotes[] = {"\u2018", "\u2019", "\u201a", "\u201b", "\u201c", "\u201d", "\u201e", "\u201f", "\u00ab", "\u00bb"};
+
+/// Known by a byte order mark of its own, or by one NUL among the first two bytes: text has no NUL, and begins with ASCII even in UTF-16.
 [[nodiscard]] inline bool is_utf16(std::string_view bytes) {
   if (bytes.size() < 2) return false;
   return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") || (bytes[0] == 0) != (bytes[1] == 0);

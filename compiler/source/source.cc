@@ -97,7 +97,7 @@ Sources::Line Sources::line_of(FileId file, std::uint32_t offset) const {
 Location Sources::locate(FileId file, std::uint32_t offset) const {
   const File& f = at(file);
   const auto next = std::upper_bound(f.line_begins.begin(), f.line_begins.end(), offset);
-  const bool bom = next == f.line_begins.begin() + 1 && f.bytes.starts_with("\xEF\xBB\xBF");
+  const bool bom = next == f.line_begins.begin() + 1 && f.bytes.starts_with(kByteOrderMark);
   const std::size_t end = std::min<std::size_t>(offset, f.bytes.size());
   const std::size_t begin = std::min<std::size_t>(*(next - 1) + (bom ? 3u : 0u), end);
   return {static_cast<std::uint32_t>(next - f.line_begins.begin()), 1 + f.code_points_in(begin, end)};
@@ -107,7 +107,7 @@ std::uint32_t Sources::offset_of(FileId file, Location place) const {
   const File& f = at(file);
   if (place.line > f.line_begins.size()) return static_cast<std::uint32_t>(f.bytes.size());
   const std::size_t end = place.line < f.line_begins.size() ? f.line_begins[place.line] - 1u : f.bytes.size();
-  const bool bom = place.line == 1 && f.bytes.starts_with("\xEF\xBB\xBF");
+  const bool bom = place.line == 1 && f.bytes.starts_with(kByteOrderMark);
   const std::size_t begin = f.line_begins[place.line - 1u] + (bom ? 3u : 0u);
   return static_cast<std::uint32_t>(f.after_code_points(begin, end, place.column - 1u));
 }

@@ -60,7 +60,7 @@ class Formatter {
  public:
   Formatter(const source::Sources& sources, std::vector<Token> comments, std::vector<Token> tokens)
       : sources_(sources), comments_(std::move(comments)), tokens_(std::move(tokens)) {
-    if (sources_.bytes(tokens_.front().span.file).starts_with("\xEF\xBB\xBF")) counted_to_ = 3;   // a byte order mark
+    if (sources_.bytes(tokens_.front().span.file).starts_with(source::kByteOrderMark)) counted_to_ = static_cast<std::uint32_t>(source::kByteOrderMark.size());
   }
 
   std::vector<Line> run() {

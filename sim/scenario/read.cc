@@ -2,10 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "sim/scenario/names.h"
 #include "sim/scenario/plain.h"
@@ -50,9 +51,6 @@ void read_build(TomlTable& sensors, SensorId id, Scenario& scenario) {
   check_rate(*table, id, build, scenario.body);
   table->done();
 }
-
-/// The keys of the robot that are forgotten to be its own. read_body reads them.
-constexpr std::array<std::string_view, 10> kRobotKeys{"size", "radius", "wheel_base", "speed", "acceleration", "turn", "slip", "slip_mean", "wheel_mismatch", "motor_lag"};
 
 /// Rules wait for seconds of the clock, whatever the robot: who goes round a crate for longer than a minute is blocked to `std.care`.
 void warn_of_weakness(TomlTable& robot, const mts::Body& body) {
@@ -105,7 +103,8 @@ void check_row(TomlTable& file, const mts::Body& body) {
                             fmt::format("{:g}", least_m), fmt::format("{:g}", most_m)});
 }
 
-void read_build(TomlTable& file, const Labyrinth& labyrinth, Scenario& scenario) {
+/// Returns the keys of `[robot]`, which may be forgotten to be its own.
+std::vector<std::string> read_build(TomlTable& file, const Labyrinth& labyrinth, Scenario& scenario) {
   scenario.body = robot_of(static_cast<float>(labyrinth.size));
   scenario.drive = limits_of(scenario.body);
   scenario.body.paint_width_m = static_cast<float>(labyrinth.widths.line_m);
@@ -119,7 +118,9 @@ void read_build(TomlTable& file, const Labyrinth& labyrinth, Scenario& scenario)
     sensors->done();
   }
   if (file.diagnostics().errors() == before) check_row(file, scenario.body);
-  if (auto robot = file.table("robot")) read_body(*robot, scenario);
+  TomlTable robot = file.table_or_none("robot");
+  read_body(robot, scenario);
+  return robot.asked();
 }
 
 void read_crossings(TomlTable& file, const Names& names, Scenario& scenario) {
@@ -265,7 +266,7 @@ std::optional<Scenario> read_robot(source::FileId file, Settings settings, const
   const std::size_t before = diagnostics.errors();
   Scenario robot;
   TomlTable table(*parsed, "a robot", places, diagnostics);
-  read_build(table, labyrinth, robot);
+  static_cast<void>(read_build(table, labyrinth, robot));
   read_crossings(table, Names{labyrinth, knowledge, static_cast<double>(robot.body.radius_m)}, robot);
   for (const char* of_a_drive : {"title", "seed", "limit", "open_end", "start", "event", "hall"}) static_cast<void>(table.has(of_a_drive));
   table.done();
@@ -289,7 +290,7 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
     scenario->open_end = true;
     scenario->events.clear();
   }
-  read_build(table, labyrinth, *scenario);
+  const std::vector<std::string> robot_keys = read_build(table, labyrinth, *scenario);
   const Names names{labyrinth, knowledge, static_cast<double>(scenario->body.radius_m)};
   source::Span start_at{file, 0, 0};
   auto start = table.table("start");
@@ -306,7 +307,7 @@ std::optional<Scenario> read_scenario(source::FileId file, Settings settings, co
   });
   if (commands) scenario->events.clear();   // without any, the command of the first route is pressed as in a plain drive
   std::move(events.begin(), events.end(), std::back_inserter(scenario->events));
-  table.done("robot", kRobotKeys);
+  table.done("robot", robot_keys);
   if (diagnostics.errors() != before) return std::nullopt;
   if (!start && first_route(model) == nullptr) {
     diagnostics.report(Kind::kSimMissing, start_at, {"a drive without a route", "[start]"});

@@ -37,14 +37,6 @@ Place place_of(std::string_view bytes, std::size_t at) {
   return {bytes.substr(begin, end - begin), at - begin};
 }
 
-/// The quotation mark of a word processor at the beginning of a text; empty if there is none.
-std::string_view foreign_quote(std::string_view text) {
-  for (const std::string_view mark : {"\u201c", "\u201d", "\u201e", "\u201f", "\u2018", "\u2019", "\u201a", "\u00ab", "\u00bb"}) {
-    if (text.starts_with(mark)) return mark;
-  }
-  return {};
-}
-
 /// A value without quotation marks, up to what ends it.
 std::string bare_text(const Place& place) {
   const bool value = place.before().ends_with('=') || place.before().ends_with('[') || place.before().ends_with(',');
@@ -83,7 +75,9 @@ std::string twice(const Place& place, std::string_view description, bool in_even
 std::string toml_mistake(std::string_view bytes, std::size_t at, std::string_view description) {
   const Place place = place_of(bytes, at);
   const std::string_view rest = place.rest();
-  if (const std::string_view mark = foreign_quote(rest); !mark.empty()) return fmt::format("a text stands between `\"`, and `{}` is another mark", mark);
+  for (const std::string_view mark : source::kForeignQuotes) {
+    if (rest.starts_with(mark)) return fmt::format("a text stands between `\"`, and `{}` is another mark", mark);
+  }
   for (const std::string_view sign : {"//", "/*", "--", ";"}) {
     if (rest.starts_with(sign) && place.before().empty()) return fmt::format("a comment begins with `#`, not with `{}`", sign);
   }

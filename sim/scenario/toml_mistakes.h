@@ -7,8 +7,8 @@
 
 namespace kb::sim {
 
-/// The well-known mistake at the byte `at` of `bytes`, where the TOML library gave up and said `description`; empty if it is none. It reads what
-/// stands on the line of `at`, no more.
+/// The well-known mistake at the byte `at` of `bytes`, where the TOML library gave up and said `description`; empty if it is none. It reads
+/// the line of `at`, and the head of the table above it.
 [[nodiscard]] std::string toml_mistake(std::string_view bytes, std::size_t at, std::string_view description);
 
 /// The number at the beginning of a text, as TOML writes it: `0.3` for `0,3 m/s`; empty if there is none.

@@ -222,6 +222,12 @@ std::optional<TomlTable> TomlTable::table(std::string_view key, std::string_view
   return std::nullopt;
 }
 
+TomlTable TomlTable::table_or_none(std::string_view key) {
+  static const toml::table kNone;
+  auto there = table(key);
+  return there ? *std::move(there) : TomlTable(kNone, {}, *places_, *diagnostics_);
+}
+
 std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   std::vector<TomlTable> tables;
   const toml::node* node = get(key);
@@ -271,11 +277,11 @@ void TomlTable::unknown_name(std::string_view key, std::string_view kind, std::s
   message.note(Kind::kSimThereAre, {}, {diagnostics::in_a_row(candidates)});
 }
 
-void TomlTable::done(std::string_view inner, std::span<const std::string_view> of_inner) {
+void TomlTable::done(std::string_view inner, std::span<const std::string> of_inner) {
   for (const auto& [key, node] : *table_) {
     if (is_asked(key)) continue;
     std::vector<std::string_view> candidates(asked_.begin(), asked_.end());
-    const bool deeper = std::find(of_inner.begin(), of_inner.end(), key.str()) != of_inner.end();
+    const bool deeper = std::ranges::find(of_inner, key.str()) != of_inner.end();
     diagnostics_->report(Kind::kSimUnknownKey, places_->span(key.source()), {key.str(), fmt::format("{} takes {}", what_, diagnostics::in_a_row(candidates))})
         .suggest(deeper ? fmt::format("{}.{}", inner, key.str()) : diagnostics::closest(key.str(), candidates));
   }

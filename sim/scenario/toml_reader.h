@@ -55,6 +55,8 @@ class TomlTable {
   [[nodiscard]] std::vector<std::string> texts(std::string_view key);
   /// `wanted`: what a message says that the table is, if something else stands there.
   [[nodiscard]] std::optional<TomlTable> table(std::string_view key, std::string_view wanted = "a table");
+  /// The same; one without keys where it is not there.
+  [[nodiscard]] TomlTable table_or_none(std::string_view key);
   [[nodiscard]] std::vector<TomlTable> tables(std::string_view key);
   /// Two numbers in brackets, each in its range.
   struct Pair { double x = 0.0, y = 0.0; };
@@ -67,7 +69,9 @@ class TomlTable {
   void missing(std::string_view key);
   void unknown_name(std::string_view key, std::string_view kind, std::string_view name, std::span<const std::string_view> candidates);
   /// Reports the keys that were not read. `of_inner`: keys of the table `inner` within this one, which may have been meant.
-  void done(std::string_view inner = {}, std::span<const std::string_view> of_inner = {});
+  void done(std::string_view inner = {}, std::span<const std::string> of_inner = {});
+  /// The keys that were asked for so far, there or not.
+  [[nodiscard]] const std::vector<std::string>& asked() const { return asked_; }
   [[nodiscard]] diagnostics::Diagnostics& diagnostics() const { return *diagnostics_; }
 
  private:

@@ -8,7 +8,7 @@
 namespace kb::lsp {
 namespace {
 
-constexpr std::string_view kMark = "\xEF\xBB\xBF";   // the byte order mark, which takes no column
+constexpr std::string_view kMark = source::kByteOrderMark;   // it takes no column
 
 /// Whether a character of two units of UTF-16 begins here.
 constexpr bool begins_pair(char c) { return (static_cast<unsigned char>(c) & 0xF8u) == 0xF0u; }

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "compiler/source/encoding.h"
 #include "compiler/source/reason.h"
 
 namespace kb::trace {
@@ -122,7 +123,7 @@ std::optional<LineReader::Line> LineReader::next() {
     begin_ += size + (whole ? 1 : 0);
     line.text = {begin, size};
     if (line.text.ends_with('\r')) line.text.remove_suffix(1);
-    if (number_ == 1 && line.text.starts_with("\xEF\xBB\xBF")) line.text.remove_prefix(3);
+    if (number_ == 1 && line.text.starts_with(source::kByteOrderMark)) line.text.remove_prefix(source::kByteOrderMark.size());
     if (line.text.size() > kMaxLineBytes) {
       line.too_long = true;
       line.text = line.text.substr(0, kMaxLineBytes);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "compiler/program/text.h"
+#include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
 #include "tools/kbc/json/json.h"
 #include "tools/kbc/trace/csv_fields.h"
@@ -23,9 +24,6 @@ struct Row {
   bool whole = true;                    // with a line end, and all its fields
   bool kept = true;
 };
-
-/// Spreadsheets write it at the beginning of UTF-8.
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::optional<std::int64_t> microseconds(double time_s) {
   return std::abs(time_s) <= kMaxTimeS ? std::optional<std::int64_t>(std::llround(time_s * 1e6)) : std::nullopt;
@@ -83,7 +81,7 @@ class Tidier {
   bool read(std::string_view bytes) {
     std::size_t before = 0;   // where the comments begin that stand before the next row
     std::uint64_t number = 0;
-    for (std::size_t at = bytes.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0; at < bytes.size();) {
+    for (std::size_t at = bytes.starts_with(source::kByteOrderMark) ? source::kByteOrderMark.size() : 0; at < bytes.size();) {
       const std::size_t begin = at, feed = std::min(bytes.find('\n', at), bytes.size());
       at = std::min(feed + 1, bytes.size());
       const std::size_t size = feed - begin - (feed > begin && bytes[feed - 1] == '\r' ? 1 : 0);
