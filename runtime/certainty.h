@@ -201,10 +201,14 @@ template <class Falling, class Rising>
 /// square_root(x) by the processor's own instruction where it is known to have one: the same bits, sooner.
 [[nodiscard]] constexpr float quick_root(float x) noexcept {
 #if defined(__SSE__)
-  using Four = float __attribute__((vector_size(16)));
   if (!std::is_constant_evaluated()) {
+#if __has_builtin(__builtin_elementwise_sqrt)   // of later clangs, which no longer have the other
+    return __builtin_elementwise_sqrt(x);
+#else
+    using Four = float __attribute__((vector_size(16)));
     const Four root = __builtin_ia32_sqrtss(Four{x, 0.0f, 0.0f, 0.0f});
     return root[0];
+#endif
   }
 #endif
   return square_root(x);

@@ -45,8 +45,8 @@ using Lanes = float __attribute__((vector_size(16)));
 inline void store(float* to, Lanes lanes) noexcept { __builtin_memcpy(to, &lanes, sizeof lanes); }
 [[nodiscard]] inline Lanes all(float x) noexcept { return Lanes{x, x, x, x}; }
 /// Like `least` and `greatest`: of equal numbers the first.
-[[nodiscard]] inline Lanes smaller(Lanes a, Lanes b) noexcept { return __builtin_ia32_minps(b, a); }
-[[nodiscard]] inline Lanes larger(Lanes a, Lanes b) noexcept { return __builtin_ia32_maxps(b, a); }
+[[nodiscard]] inline Lanes smaller(Lanes a, Lanes b) noexcept { return b < a ? b : a; }
+[[nodiscard]] inline Lanes larger(Lanes a, Lanes b) noexcept { return b > a ? b : a; }
 [[nodiscard]] inline bool every(Lanes mask) noexcept { return __builtin_ia32_movmskps(mask) == 15; }
 [[nodiscard]] inline Lanes to_degree(Lanes x) noexcept { return larger(smaller(x, all(1.0f)), all(0.0f)); }
 #endif

@@ -149,7 +149,7 @@ bool rule_is_read(const Subject<Ix>& s, std::uint32_t rule, std::uint32_t word, 
   std::uint32_t keys = 0;
   for (std::uint32_t i = t.rules[rule].conditions; i < t.rules[rule + 1].conditions; ++i) {
     const std::uint32_t atom = t.conditions[i] >> 1;
-    const std::uint32_t wanted = ~t.conditions[i] & 1u;
+    const std::uint32_t wanted = ~std::uint32_t{t.conditions[i]} & 1u;
     const Readers<Ix> r = readers_in(s, atom, word);
     if (wanted != 0 && (r.keyed & bit) != 0) {
       ++keys;
