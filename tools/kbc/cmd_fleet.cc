@@ -233,7 +233,7 @@ bool drive_missing(const Prepared& prepared, const BatchFiles& files, const Want
 /// Reports (KB1363) each row of the table that is not as expected.
 void compare_rows(const std::vector<sim::batch::Demand>& expected, const Batch& batch, const std::vector<sim::batch::Run>& runs, Session& session) {
   for (const auto& unmet : sim::batch::unmet(expected, batch, runs)) {
-    const auto& scenario = batch.scenarios()[unmet.scenario];
+    const auto& scenario = batch.scenarios()[unmet.row];
     std::string row = scenario.name;
     for (std::size_t i = 0; i < scenario.values.size(); ++i) row += fmt::format(", {}={}", batch.keys()[i], scenario.values[i]);
     session.report(Kind::kFleetUnexpected, {unmet.demand, row, unmet.found});
@@ -243,7 +243,7 @@ void compare_rows(const std::vector<sim::batch::Demand>& expected, const Batch& 
 bool read_expected(const std::string& text, std::vector<sim::batch::Demand>& expected, Session& session) {
   if (text.empty()) return true;
   std::string why;
-  auto read = sim::batch::read_demands(text, why);
+  auto read = sim::batch::read_demands(text, sim::batch::countable(), why);
   if (!read) session.report(Kind::kFleetExpect, {text, why});
   else expected = std::move(*read);
   return read.has_value();

@@ -172,6 +172,15 @@ constexpr std::array kCommands = {
             "kbc fleet mission.kb --seeds 1-1000 --out r --merge                            # puts the shares together\n"
             "kbc fleet mission.kb --seeds 1-20 --out r --set sensors.range.noise=0.01,0.1   # with each of two noises\n",
             Shared::kCompiles, setup_fleet},
+    Command{"compare", "Say which runs end otherwise after a change",
+            "Reads the results of two batches or experiments, pairs their runs (the same scenario, settings, seed and robot), and says how many arrive in one "
+            "of the two only, and how likely so uneven a division is by chance (p: McNemar's exact test). Below the table stand the runs that end otherwise. "
+            "With --between the two sides are values of one column: methods of an experiment, or settings of a batch.",
+            "kbc compare before after                                        # two folders of kbc fleet, from before and after a change\n"
+            "kbc compare before after --expect lost=0,collisions=0           # for a build server: nothing has become worse\n"
+            "kbc compare results --between method=mts,quick                  # two minds of one experiment\n"
+            "kbc compare sweep --between robot.speed=0.4,0.6 --csv pairs.csv # two settings of one batch, and all pairs as a table\n",
+            Shared::kMessages, setup_compare},
     Command{"experiment", "Compare a knowledge base with programmed control and with Bug2",
             "Generates labyrinths, routes and disturbances, lets all three, and rules of your own, drive through them, and says how often they arrive. "
             "An interrupt loses nothing: the same command continues. The same options give the same bytes.",

@@ -102,5 +102,6 @@ Run setup_man(CLI::App& app);
 Run setup_plan(CLI::App& app);
 Run setup_sim(CLI::App& app);
 Run setup_fleet(CLI::App& app);
+Run setup_compare(CLI::App& app);
 
 }  // namespace kb::cli

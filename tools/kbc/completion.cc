@@ -20,7 +20,7 @@ Completion completion_of(const CLI::Option& option) {
   if (word == "CODE") return {Kind::kCodes, {}};
   if (word == "DIR") return {Kind::kFolders, {}};
   if (word == "FILE" && is_positional(option)) return {Kind::kInputs, {}};
-  return {word == "TEXT" || word == "FILE" || word == "FILE=NAME" || word == "PREFIX" ? Kind::kFiles : Kind::kUnknown, {}};
+  return {word == "OLD" || word == "NEW" || word == "TEXT" || word == "FILE" || word == "FILE=NAME" || word == "PREFIX" ? Kind::kFiles : Kind::kUnknown, {}};
 }
 
 std::vector<const CLI::Option*> shown_options(const CLI::App& command) {

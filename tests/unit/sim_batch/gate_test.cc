@@ -25,14 +25,14 @@ bool meets(std::string_view demand, std::size_t arrived, std::size_t all) {
     runs.back().outcome = number < arrived ? "arrived" : "stuck";
   }
   std::string why;
-  const auto demands = read_demands(demand, why);
+  const auto demands = read_demands(demand, countable(), why);
   EXPECT_TRUE(demands) << why;
   return demands && unmet(*demands, batch, runs).empty();
 }
 
 bool is_read(std::string_view demand) {
   std::string why;
-  return read_demands(demand, why).has_value();
+  return read_demands(demand, countable(), why).has_value();
 }
 
 TEST(GateTest, compares_shares_that_no_double_holds) {

@@ -1,0 +1,121 @@
+#include "sim/batch/results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "compiler/source/numbers.h"
+#include "sim/batch/fields.h"
+
+namespace kb::sim::batch {
+namespace {
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (std::size_t comma = 0; comma != std::string_view::npos;) {
+    comma = line.find(',');
+    fields.push_back(line.substr(0, comma));
+    line.remove_prefix(comma == std::string_view::npos ? 0 : comma + 1);
+  }
+  return fields;
+}
+
+/// `# kbc fleet, batch 17, 2 runs, kbc 4, seeds 1-2`: each item is a name and, behind its last blank, a value; a number of runs says nothing.
+std::vector<std::pair<std::string, std::string>> items_of(std::string_view comment) {
+  std::vector<std::pair<std::string, std::string>> items;
+  for (std::string_view item : fields_of(comment)) {
+    while (item.starts_with(' ') || item.starts_with('#')) item.remove_prefix(1);
+    const std::size_t blank = std::min(item.rfind(' '), item.size());
+    if (item.empty() || item == "kbc fleet" || item.ends_with(" runs") || item.starts_with("batch ")) continue;
+    items.emplace_back(item.substr(0, blank), item.substr(std::min(blank + 1, item.size())));
+  }
+  return items;
+}
+
+/// Where the columns stand that an Ending is made of.
+struct Places {
+  std::size_t outcome = 0, reports = 0, time = 0, length = 0, measures = 0;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : text_(text) {}
+
+  std::variant<Results, ResultsFault> read() {
+    while (next() && fault_.what.empty()) {
+      if (line_.starts_with('#')) {
+        if (results_.made_of.empty()) results_.made_of = items_of(line_);
+      } else if (columns_ == 0) {
+        take_header();
+      } else if (!line_.empty()) {
+        take_row();
+      }
+    }
+    if (fault_.what.empty() && columns_ == 0) refuse("there is no line with the names of columns");
+    if (!fault_.what.empty()) return std::move(fault_);
+    return std::move(results_);
+  }
+
+ private:
+  bool next() {
+    if (at_ >= text_.size()) return false;
+    begin_ = at_;
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    line_ = text_.substr(at_, end - at_);
+    if (line_.ends_with('\r')) line_.remove_suffix(1);
+    at_ = end + 1;
+    return true;
+  }
+  void refuse(std::string what) { fault_ = {begin_, begin_ + line_.size(), std::move(what)}; }
+
+  std::optional<std::size_t> column(const std::vector<std::string_view>& names, std::string_view name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    refuse(fmt::format("there is no column `{}`", name));
+    return std::nullopt;
+  }
+
+  void take_header() {
+    const std::vector<std::string_view> names = fields_of(line_), measures = fields_of(kMeasures);
+    const auto outcome = column(names, "outcome"), reports = column(names, "reports"), time = column(names, "time_s"), length = column(names, "length_m");
+    if (!outcome || !reports || !time || !length) return;
+    const auto found = std::search(names.begin(), names.end(), measures.begin(), measures.end());
+    if (found == names.end()) return refuse(fmt::format("there are no columns `{}`", kMeasures));
+    columns_ = names.size();
+    places_ = {*outcome, *reports, *time, *length, static_cast<std::size_t>(found - names.begin())};
+    const auto cut = names.begin() + static_cast<std::ptrdiff_t>(*outcome);
+    results_.which.assign(names.begin(), cut);
+    results_.measured.assign(cut, names.end());
+  }
+
+  void take_row() {
+    const std::vector<std::string_view> fields = fields_of(line_);
+    if (fields.size() != columns_) return refuse(fmt::format("{} fields stand here, and {} columns have a name", fields.size(), columns_));
+    ResultRow row;
+    std::size_t outcome = 0;
+    const std::span<const std::string_view> all(fields);
+    const bool good = read_name(fields[places_.outcome], kOutcomes, outcome) && source::read_number(fields[places_.time], row.ending.time_s) &&
+                      source::read_number(fields[places_.length], row.ending.length_m) &&
+                      read_measures(all.subspan(places_.measures).first<kMeasureCount>(), row.ending);
+    if (!good) return refuse("this is no row of a run");
+    row.ending.outcome = fields[places_.outcome];
+    row.ending.reports = fields[places_.reports];
+    const auto cut = fields.begin() + static_cast<std::ptrdiff_t>(results_.which.size());
+    row.which.assign(fields.begin(), cut);
+    row.measured.assign(cut, fields.end());
+    results_.rows.push_back(std::move(row));
+  }
+
+  std::string_view text_, line_;
+  std::size_t at_ = 0, begin_ = 0, columns_ = 0;
+  Places places_;
+  Results results_;
+  ResultsFault fault_;
+};
+
+}  // namespace
+
+std::variant<Results, ResultsFault> read_results(std::string_view text) { return Reader(text).read(); }
+
+}  // namespace kb::sim::batch
