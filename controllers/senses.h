@@ -36,9 +36,11 @@ struct Senses {
   /// `SteadyRanges` computes it. Below 0: the robot is in that lane. `kOutOfRange` or more, or NaN: nobody comes.
   float met_m = kOutOfRange;
   float heading_rad = 0.0f;           ///< compass
-  float x_m = 0.0f, y_m = 0.0f;       ///< odometry: position by the wheels, in their own frame; drifts, but does not jump
+  /// Odometry: position by the wheels, in their own frame; drifts, but does not jump. Keep it within some 5 km of zero, where a float moves in steps of
+  /// half a millimetre: take off a multiple of a kilometre where it grows beyond; for that one period the speed counts.
+  float x_m = 0.0f, y_m = 0.0f;
   float speed_m_s = 0.0f;             ///< odometry; negative when driving backwards
-  float turned_rad = 0.0f;            ///< odometry: angle turned, by the wheels or a gyroscope; from any zero; drifts
+  float turned_rad = 0.0f;            ///< odometry: angle turned, by the wheels or a gyroscope; from any zero; drifts. Take off whole turns beyond 1,000 rad
   bool line_known = false, range_known = false, heading_known = false, odometry_known = false;
   bool turned_known = false;          ///< without it controllers make do with the compass
   bool touched = false;               ///< bumper: nothing drives ahead while it is pressed

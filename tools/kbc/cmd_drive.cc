@@ -3,6 +3,8 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <chrono>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -40,7 +42,7 @@ class Conversation {
  public:
   /// `orders` may be null.
   Conversation(wire::Exchange& exchange, DriveLog& log, Orders* orders, DriveGround& ground, Session& session)
-      : exchange_(exchange), log_(log), orders_(orders), sources_(ground.compiled->sources), messages_(session.diagnostics(sources_)), session_(session),
+      : exchange_(exchange), log_(log), orders_(orders), sources_(ground.compiled->sources), session_(session),
         channel_(STDIN_FILENO, STDOUT_FILENO, Interrupts::came) {}
 
   /// Runs until the input ends, nobody reads the output, or an interrupt comes. Returns the exit code.
@@ -48,9 +50,8 @@ class Conversation {
     using Came = wire::LineChannel::Came;
     for (std::string line;;) {
       const Came came = channel_.read(line, waits_ms());
-      silent_us_ = came == Came::kLate ? silent_us_ + kListens_ms * 1000 : 0;
       if (came == Came::kLate) {
-        orders_->wait(silent_us_);
+        orders_->wait(unheard_us());
         continue;
       }
       if (came == Came::kStopped) return interrupted();
@@ -66,7 +67,7 @@ class Conversation {
       if (went == Came::kStopped) return interrupted();
       if (went == Came::kFailed) session_.report(Kind::kCannotWrite, {"standard output", source::reason(channel_.error())});
       if (went != Came::kLine) return session_.exit_code();
-      if (orders_ != nullptr) orders_->step();
+      if (orders_ != nullptr) follow_orders();
       log_.heard(line, answer, !exchange_.mistake());
     }
   }
@@ -76,6 +77,20 @@ class Conversation {
 
   /// How long it waits for the robot before it looks after the master.
   [[nodiscard]] int waits_ms() const { return orders_ != nullptr && orders_->live() ? kListens_ms : wire::LineChannel::kForEver; }
+  /// How long nothing has come that could be understood: by this machine's clock, or, with orders from a file, which give the same each time, as if each
+  /// other line were a period of its own.
+  [[nodiscard]] std::int64_t unheard_us() const {
+    if (!orders_->live()) return unheard_ * sim::kControlUs;
+    return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - heard_at_).count();
+  }
+  /// A robot whose lines are refused stands, like one that is silent.
+  void follow_orders() {
+    const bool heard = exchange_.line().has_value();
+    if (heard) heard_at_ = std::chrono::steady_clock::now();
+    unheard_ = heard ? 0 : unheard_ + 1;
+    if (heard) orders_->step();
+    else orders_->wait(unheard_us());
+  }
   /// Gives the robot an answer, however long it takes none.
   wire::LineChannel::Came give(const std::string& answer) {
     using Came = wire::LineChannel::Came;
@@ -84,9 +99,11 @@ class Conversation {
     for (; went == Came::kLate; went = channel_.write_on(waits_ms())) orders_->wait(stuck_us += kListens_ms * 1000);
     return went;
   }
+  /// Each kind of message has a limit of its own: what has gone wrong for weeks must not hide what begins to go wrong.
   void tell(const wire::Mistake& mistake, const std::string& line) {
-    if (messages_.errors() + messages_.warnings() > diagnostics::Diagnostics::kMaxErrors) return;   // there are messages enough, and each costs memory
-    wire::report(mistake, trace::excerpt(sources_, "standard input", {line, number_}, mistake.span.begin, mistake.span.end), messages_);
+    diagnostics::Diagnostics& messages = messages_.try_emplace(mistake.kind, session_.diagnostics(sources_)).first->second;
+    if (messages.errors() + messages.warnings() > diagnostics::Diagnostics::kMaxErrors) return;   // there are messages enough, and each costs memory
+    wire::report(mistake, trace::excerpt(sources_, "standard input", {line, number_}, mistake.span.begin, mistake.span.end), messages);
   }
   int interrupted() {
     constexpr int kAtMost_ms = 200;
@@ -99,11 +116,12 @@ class Conversation {
   DriveLog& log_;
   Orders* orders_;
   source::Sources& sources_;
-  diagnostics::Diagnostics messages_;
+  std::map<Kind, diagnostics::Diagnostics> messages_;
   Session& session_;
   wire::LineChannel channel_;
   std::uint64_t number_ = 0;
-  std::int64_t silent_us_ = 0;
+  std::chrono::steady_clock::time_point heard_at_ = std::chrono::steady_clock::now();
+  std::int64_t unheard_ = 0;   // lines in a row
 };
 
 /// `missions`: those of orders; null if the knowledge base has its own missions.

@@ -71,7 +71,9 @@ void DriveLog::heard(std::string_view line, std::string_view answer, bool unders
 
 void DriveLog::report(const Part& part) {
   const trace::OutputFile& file = *part.file;
-  session_.report(Kind::kCannotWrite, {part.name, file.error() + (file.stays_beside() ? fmt::format("; what came before is in `{}`", file.beside()) : std::string())});
+  std::error_code ignored;
+  const bool is_there = file.stays_beside() && std::filesystem::exists(file.beside(), ignored);
+  session_.report(Kind::kCannotWrite, {part.name, file.error() + (is_there ? fmt::format("; what came before is in `{}`", file.beside()) : std::string())});
   good_ = false;
 }
 

@@ -37,9 +37,11 @@ class Orders {
   [[nodiscard]] static std::unique_ptr<Orders> open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
                                                     wire::Exchange& exchange, Session& session);
 
+  /// To be called after each line that was understood.
   void step() { desk_->step(), tell(); }
   /// Whether there may be something to do while the robot is silent; `wait` must then be called.
   [[nodiscard]] bool live() const { return link_->live(); }
+  /// To be called while nothing comes, or nothing that can be understood.
   void wait(std::int64_t silent_us) { desk_->wait(silent_us), tell(); }
   /// Takes leave of the master and gives the file of messages its name. False if it could not be written (reported).
   [[nodiscard]] bool end();

@@ -26,7 +26,7 @@ OrderDesk::OrderDesk(const OrderMissions& missions, const sim::Knowledge& idle, 
 
 void OrderDesk::step() {
   silent_ = false;
-  if (exchange_.line()) hear_line(*exchange_.line());
+  hear_line(*exchange_.line());
   follow_mission();
   deal(t_us_);
 }
@@ -37,7 +37,12 @@ void OrderDesk::wait(std::int64_t silent_us) {
   deal(t_us_ + silent_us);
 }
 
-void OrderDesk::leave() { link_.send(vehicle_.farewell(link_.utc_us(dealt_us_)), dealt_us_); }
+void OrderDesk::leave() {
+  speed_m_s_ = 0.0, turn_rad_s_.value = 0.0f;
+  vehicle_.observe(progress(), condition_, {}, {link_.utc_us(dealt_us_), dealt_us_});
+  for (const vda5050::Message& message : vehicle_.take_messages()) link_.send(message, dealt_us_);
+  link_.send(vehicle_.farewell(link_.utc_us(dealt_us_)), dealt_us_);
+}
 
 void OrderDesk::hear_line(const wire::Line& line) {
   const float dt_s = exchange_.period_s();
@@ -113,7 +118,7 @@ void OrderDesk::deal(std::int64_t t_us) {
   t_us = dealt_us_ = std::max(dealt_us_, t_us);
   const std::int64_t utc_us = link_.utc_us(t_us);
   if (link_.connected_anew()) vehicle_.tell_again(utc_us);
-  vehicle_.observe(progress(), condition_, action_states_, utc_us);
+  vehicle_.observe(progress(), condition_, action_states_, {utc_us, t_us});
   action_states_.clear();
   while (const auto message = link_.next(t_us)) vehicle_.hear(*message, utc_us);
   if (const auto place = vehicle_.take_place()) exchange_.put(place->road.landmark, place->road.exit, place->along_m);

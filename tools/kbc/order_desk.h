@@ -30,11 +30,11 @@ class OrderDesk {
   /// All must outlive it. `idle`: what the exchange's mind runs on at the beginning.
   OrderDesk(const OrderMissions& missions, const sim::Knowledge& idle, wire::Exchange& exchange, vda5050::Vehicle& vehicle, vda5050::Link& link);
 
-  /// To be called after a line was answered, whether or not it was understood.
+  /// To be called after a line was understood and answered.
   void step();
-  /// To be called when the robot was silent for `silent_us` by this machine's clock. Only for live links.
+  /// To be called when nothing has come for `silent_us`, or nothing that could be understood.
   void wait(std::int64_t silent_us);
-  /// Sends the last message to the master.
+  /// The robot stands, and is driven no more: sends the last messages to the master.
   void leave();
 
  private:

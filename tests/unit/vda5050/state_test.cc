@@ -94,6 +94,33 @@ TEST_F(Yard, AStateIsSentWhenSomethingChangesAndEveryThirtySeconds) {
   EXPECT_EQ(state["lastNodeId"], "n3");
 }
 
+TEST_F(AtTheFirst, AClockThatIsSetByAnHourPassesNoTime) {
+  instruct("b", "beep");
+  look();
+  EXPECT_EQ(status("b"), "RUNNING") << "it takes two seconds";
+  for (const std::int64_t set_us : {3'600'000'000, -3'600'000'000}) {
+    vehicle.observe(progress, condition, {}, {us + set_us, us + 100'000});
+    collect();
+    EXPECT_EQ(status("b"), "RUNNING");
+  }
+  look(2.0);
+  EXPECT_EQ(status("b"), "FINISHED");
+}
+
+TEST_F(Yard, AnOrderIsCancelledThoughTheRobotHasFallenSilent) {
+  progress.here = "L1";
+  look();
+  say("order", order("A", 0, {"n1", "n2"}));
+  set_off();
+  instruct("c", "cancelOrder");
+  progress.speed_m_s = 0.0;
+  progress.silent = true;
+  look(2.9);
+  EXPECT_EQ(status("c"), "RUNNING");
+  look(0.3);
+  EXPECT_EQ(status("c"), "FINISHED");
+}
+
 TEST_F(Yard, WhereItIsIsToldAsOftenAsIsWished) {
   Sheet sheet;
   sheet.visualization_s = 0.5;
@@ -103,7 +130,7 @@ TEST_F(Yard, WhereItIsIsToldAsOftenAsIsWished) {
   for (int i = 0; i <= 20; ++i) {
     progress.at->along_m = 0.1 * i;
     progress.speed_m_s = 0.4;
-    one.observe(progress, condition, {}, 1'000'000'000 + 100'000 * i);
+    one.observe(progress, condition, {}, {1'000'000'000 + 100'000 * i, 100'000 * i});
     for (const Message& message : one.take_messages()) {
       if (message.topic == "visualization") told.push_back(Json::parse(message.payload));
     }
@@ -283,7 +310,7 @@ TEST_F(Yard, TheSameComesOutForTheSame) {
     Json json = order("A", 0, {"n1", "n2"});
     json["nodes"][0]["actions"] = Json::array({action("b", "beep")});
     one.hear({"order", json.dump()}, 5);
-    for (int i = 0; i < 40; ++i) one.observe({one.task().number, 1, true, 0.1, 0.0, 0.1 * i, "", {}}, {}, {}, 100'000 * i);
+    for (int i = 0; i < 40; ++i) one.observe({one.task().number, 1, true, 0.1, 0.0, 0.1 * i, "", {}}, {}, {}, {100'000 * i, 100'000 * i});
     for (const Message& message : one.take_messages()) out += message.topic + message.payload;
     return out;
   };

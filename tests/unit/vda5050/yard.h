@@ -101,7 +101,7 @@ class Yard : public testing::Test {
   void look(double s = 0.1) {
     for (int i = 0; i < static_cast<int>(s * 10 + 0.5); ++i) {
       us += 100'000;
-      vehicle.observe(progress, condition, std::exchange(words, {}), us);
+      vehicle.observe(progress, condition, std::exchange(words, {}), {us, us});
       collect();
     }
   }

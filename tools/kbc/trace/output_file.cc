@@ -83,7 +83,7 @@ bool is_left_of(std::string_view file, std::string_view name) {
 bool OutputFile::open_beside(bool exists, unsigned mode) {
   is_new_ = !exists;
   temporary_ = target_ + "." + std::string(kRandom);
-  file_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
+  file_ = ::mkostemp(temporary_.data(), O_CLOEXEC | O_APPEND);   // a file that is cut while it grows, as logs are rotated, goes on at its new end
   if (file_ < 0) {
     temporary_.clear();
     if (errno != ENOENT) return fail(errno);

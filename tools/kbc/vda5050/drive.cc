@@ -49,7 +49,7 @@ void Vehicle::State::sense(const Progress& now, std::int64_t passed_us) {
   }
   const bool comes_on = std::abs(speed_m_s) > kMoves_m_s;   // a robot that turns on the spot is looking for its way
   stood_us = comes_on || paused ? 0 : stood_us + passed_us;
-  helpless_us = stood_us == 0 || reports.empty() ? 0 : helpless_us + passed_us;
+  helpless_us = stood_us == 0 || (reports.empty() && !silent) ? 0 : helpless_us + passed_us;
 }
 
 /// See note [where an order is believed to begin]. Before a sign that the mission does not expect, the robot would only look round, and its master

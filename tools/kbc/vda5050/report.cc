@@ -127,7 +127,7 @@ void Vehicle::State::send_state(std::int64_t utc_us) {
   Out errors = Out::array();
   for (const Complaint& complaint : complaints) errors.push_back(error(complaint));
   for (std::size_t i = 0; i < reports.size() && i < kMostReports; ++i) errors.push_back(error({reports[i], "the robot reports " + reports[i], {}, reports[i] == kWaitsForButton}));
-  if (silent) errors.push_back(error({"robotSilent", "nothing is heard from the robot, or it takes no answers; its base has stopped it", {}, true}));
+  if (silent) errors.push_back(error({"robotSilent", "nothing that can be used is heard from the robot, or it takes no answers; it stands", {}, true}));
   if (gave_up) errors.push_back(error({"cannotGoOn", "the robot has given up its way; cancelOrder frees it", {{"orderId", book.id()}, {"orderUpdateId", std::to_string(book.update())}}, true}));
   out["errors"] = std::move(errors);
   Out infos = Out::array();

@@ -36,20 +36,20 @@ void Vehicle::hear(const Message& message, std::int64_t utc_us) {
   state_->finish(utc_us);
 }
 
-void Vehicle::observe(const Progress& progress, const Condition& condition, const std::vector<HostActionState>& states, std::int64_t utc_us) {
+void Vehicle::observe(const Progress& progress, const Condition& condition, const std::vector<HostActionState>& states, Moment now) {
   State& state = *state_;
-  state.greet(utc_us);
+  state.greet(now.utc_us);
   state.look(condition);
   for (const HostActionState& report : states) state.actions.hear(report);
-  const std::int64_t passed_us = std::max<std::int64_t>(utc_us - state.now_us, 0);   // if the clock was set back, no time has passed
+  const std::int64_t passed_us = std::max<std::int64_t>(now.t_us - state.seen_us.value_or(now.t_us), 0);
   state.actions.pass(passed_us);
-  state.now_us = utc_us;
+  state.seen_us = now.t_us;
   state.by_hand_us = state.obeys() ? 0 : state.by_hand_us + passed_us;
   state.follow(progress, passed_us);
   if (state.in_hand()) state.forget_place();
   state.settle();
   state.stand();
-  state.finish(utc_us);
+  state.finish(now.utc_us);
 }
 
 const Task& Vehicle::task() const { return state_->stretch.task(); }
@@ -64,7 +64,6 @@ Message will_of(const Identity& identity, std::uint32_t header_id, std::int64_t 
 
 void Vehicle::State::greet(std::int64_t utc_us) {
   if (std::exchange(greeted, true)) return;
-  now_us = utc_us;
   send(connection_message(identity, "ONLINE", connections++, utc_us));
 }
 

@@ -78,6 +78,9 @@ struct Progress {
   bool silent = false;             ///< the robot has fallen silent: all else is as last heard, and its base has stopped it
 };
 
+/// A time on two clocks. That of the messages may be set, forwards and backwards; how long something has lasted is told by the other, which only grows.
+struct Moment { std::int64_t utc_us = 0, t_us = 0; };
+
 /// The kind of robot, for the factsheet (6.15). Lengths in metres.
 struct Sheet {
   std::string series = "Waymark";
@@ -106,7 +109,7 @@ class Vehicle {
   /// Takes a message of the master. If it is refused, the next state reports an error. Never throws because of its contents.
   void hear(const Message& message, std::int64_t utc_us);
   /// To be called every control period.
-  void observe(const Progress& progress, const Condition& condition, const std::vector<HostActionState>& states, std::int64_t utc_us);
+  void observe(const Progress& progress, const Condition& condition, const std::vector<HostActionState>& states, Moment now);
 
   [[nodiscard]] const Task& task() const;
   /// The position given by the master (`initPosition`) since the last call; nothing if there was none.

@@ -128,7 +128,8 @@ struct Vehicle::State {
   std::vector<std::string> cancels, pauses;          // instant actions that are not over
   bool greeted = false, changed = true;
   Shown told;
-  std::int64_t now_us = 0, told_us = 0, shown_us = 0;
+  std::optional<std::int64_t> seen_us;               // when it was observed last, by the clock that only grows
+  std::int64_t told_us = 0, shown_us = 0;
   std::uint32_t connections = 0, states = 0, factsheets = 0, visualizations = 0;   // header ids, by topic
   std::vector<Message> outbox;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "compiler/program/text.h"
@@ -95,6 +96,7 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   else if (t_us > clock_.next_us) tick_before(t_us, answer);
 
   period_s_ = static_cast<float>(static_cast<double>(began_ && !away ? gap_us : sim::kControlUs) / 1e6);
+  count_from_near(line);
   mts::Senses senses = line.senses;
   if (line.guide) set_line(*line.guide, body_, senses);
   wheels_ = driver_.hear(senses, tag_, period_s_, line.guide.has_value());
@@ -107,6 +109,12 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   tell(answer);
   line_ = std::move(line);
   return std::nullopt;
+}
+
+/// See note [odometry of any zero].
+void Exchange::count_from_near(Line& line) {
+  if (!std::isnan(line.senses.x_m)) line.senses.x_m = x_.of(line.x_m), line.senses.y_m = y_.of(line.y_m);
+  line.senses.turned_rad = near_zero(line.turned_rad);
 }
 
 /// See note [a clock that leaps].

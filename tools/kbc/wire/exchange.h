@@ -50,6 +50,7 @@
 #include "tools/kbc/trace/cell_names.h"
 #include "tools/kbc/wire/answer.h"
 #include "tools/kbc/wire/line.h"
+#include "tools/kbc/wire/near_zero.h"
 #include "tools/kbc/wire/own_sensors.h"
 
 namespace kb::wire {
@@ -123,6 +124,7 @@ class Exchange {
   void warn_of_what_nobody_hears(const Line& line);
   [[nodiscard]] bool was_said(std::string what);
   void remember_given(const std::string& id);
+  void count_from_near(Line& line);
   void hear_stops(std::string_view text);
   void hear_buttons(bool away);
   void hear_sensors(std::int64_t t_us);
@@ -165,6 +167,8 @@ class Exchange {
   std::optional<std::int64_t> refused_us_;           // `t` of the last line, if it was not later than the one before
   std::int64_t offset_us_ = 0;                       // from our own clock to the host's
   int pauses_ = 0;                                   // how many lines in a row, up to the last, came after a pause
+
+  NearZero x_, y_;                                   // of odometry
 
   float period_s_ = 0.0f;
   mts::Motion wheels_;

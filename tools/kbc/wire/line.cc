@@ -21,7 +21,7 @@ constexpr double kLatest = 1e11;                 // s: some 3,000 years
 constexpr float kFullTurn = 6.283186f;           // rad
 constexpr Range kDark{-0.5, 1.5};                // a sensor may be slightly out of range
 constexpr Range kRow{-1.0, 1.0};                 // m: a host that sends millimetres gets a message
-constexpr Range kMetres{-1e6, 1e6}, kRanges{-1e6, 1000.0}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0}, kMeasured{-1e30, 1e30};
+constexpr Range kOdometry{-1e9, 1e9}, kRanges{-1e6, 1000.0}, kSpeeds{-100.0, 100.0}, kAngles{-1e6, 1e6}, kCertainties{-1.0, 1.0}, kMeasured{-1e30, 1e30};
 
 /// Which fields of those that belong together a line has, while it is read.
 struct Draft {
@@ -125,11 +125,11 @@ constexpr std::array kFields{
       read_compass(reading, json, draft.line);
     }, "rad", "counter-clockwise from east; whole turns do not matter"},
     Field<Draft>{"odometry_x_m", [](Reading& reading, const Json& json, Draft& draft) {
-      reading.number("odometry_x_m", json, kMetres, draft.line.senses.x_m);
+      reading.number("odometry_x_m", json, kOdometry, draft.line.x_m);
       draft.x = true;
     }, "m", "east by the wheels, of any zero"},
     Field<Draft>{"odometry_y_m", [](Reading& reading, const Json& json, Draft& draft) {
-      reading.number("odometry_y_m", json, kMetres, draft.line.senses.y_m);
+      reading.number("odometry_y_m", json, kOdometry, draft.line.y_m);
       draft.y = true;
     }, "m", "north by the wheels, of any zero"},
     Field<Draft>{"odometry_m_s", [](Reading& reading, const Json& json, Draft& draft) {
@@ -137,7 +137,7 @@ constexpr std::array kFields{
       draft.line.senses.odometry_known = true;
     }, "m/s", "by the wheels, backwards negative"},
     Field<Draft>{"odometry_turned_rad", [](Reading& reading, const Json& json, Draft& draft) {
-      reading.number("odometry_turned_rad", json, kAngles, draft.line.senses.turned_rad);
+      reading.number("odometry_turned_rad", json, kOdometry, draft.line.turned_rad);
       draft.line.senses.turned_known = true;
     }, "rad", "by the wheels or a gyroscope, counter-clockwise, of any zero"},
     Field<Draft>{"touched", [](Reading& reading, const Json& json, Draft& draft) { reading.truth("touched", json, draft.line.senses.touched); },
@@ -179,6 +179,9 @@ std::variant<Line, Mistake> read_line(std::string_view text) {
     if (!object && is_no_number(text.substr(mistake.span.begin))) mistake.better = "null";
     return mistake;
   }
+  senses.x_m = static_cast<float>(draft.line.x_m);
+  senses.y_m = static_cast<float>(draft.line.y_m);
+  senses.turned_rad = static_cast<float>(draft.line.turned_rad);
   if (senses.odometry_known && !draft.x) senses.x_m = senses.y_m = std::numeric_limits<float>::quiet_NaN();   // then the speed is used: see mts::Odometer
   draft.line.t_us = std::llround(draft.t_s * 1e6);
   return std::move(draft.line);

@@ -37,6 +37,7 @@ struct Line {
   struct Measured { Name sensor; std::vector<Value> values; bool list = false; };
   std::int64_t t_us = 0;
   mts::Senses senses;
+  double x_m = 0.0, y_m = 0.0, turned_rad = 0.0;   ///< those of `senses` as they were said: see note [odometry of any zero]
   std::optional<Guide> guide;      ///< in place of the darknesses: `line` is silent in `senses`
   bool reader = false;             ///< the tag reader works
   std::optional<Tag> tag;          ///< what it reads; nothing: no tag

@@ -1,0 +1,1 @@
+# RUN LONG: for far in "0 0" "5.4e6 0" "999998 1e6" "-4e8 -7e8"; do echo $far; kbc sim ../../../examples/04_simulator/route1.kb -q --driver "python3 lines.d/far.py $far kbc drive ../../../examples/04_simulator/route1.kb" | grep -E '^arrived|stands|time|length'; done
