@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "compiler/model/draft.h"
 #include "compiler/model/references.h"
@@ -193,31 +195,50 @@ void report_no_levels(Draft& draft, source::Span at) {
   draft.diagnostics.report(Kind::kNoLevels, at, {standard ? "`import std.basics`, or " + line : line});
 }
 
+namespace {
+
+/// Whether `all` has each of `some`, in their order, and ends with the same one: whoever inserts levels says the whole order.
+bool contains(const std::vector<syntax::Name>& all, const std::vector<syntax::Name>& some) {
+  auto next = some.begin();
+  for (const syntax::Name& name : all) {
+    if (next != some.end() && name.text == next->text) ++next;
+  }
+  return next == some.end() && all.back().text == some.back().text;
+}
+
+/// Where a level was declared first: one of the library's belongs to it, whoever repeats its name.
+source::Span first_place(const std::vector<std::pair<const syntax::Levels*, source::Span>>& lines, const syntax::Name& level, const source::Sources& sources) {
+  for (const auto& [levels, span] : lines) {
+    if (!sources.standard(span.file)) continue;
+    const auto found = std::find_if(levels->names.begin(), levels->names.end(), [&](const syntax::Name& name) { return name.text == level.text; });
+    if (found != levels->names.end()) return found->span;
+  }
+  return level.span;
+}
+
+}  // namespace
+
 void declare_levels(Draft& draft) {
-  const syntax::Levels* first = nullptr;
+  std::vector<std::pair<const syntax::Levels*, source::Span>> lines;
   draft.each<syntax::Levels>([&](const auto&, const syntax::Statement& statement, const syntax::Levels& levels) {
-    if (first != nullptr) {
-      const bool same = std::equal(levels.names.begin(), levels.names.end(), first->names.begin(), first->names.end(),
-                                   [](const syntax::Name& a, const syntax::Name& b) { return a.text == b.text; });
-      if (same) return;
-      draft.diagnostics.report(Kind::kLevelsTwice, statement.span)
-          .note(Kind::kFirstDeclaredHere, first->names.front().span)
-          .note(Kind::kLevelsOnce, {});
-      return;
-    }
-    if (levels.names.empty()) return;
-    first = &levels;
-    std::unordered_map<std::string_view, source::Span> known;
-    for (const syntax::Name& name : levels.names) {
-      const auto [before, fresh] = known.emplace(name.text, name.span);
-      if (!fresh) {
-        draft.diagnostics.report(Kind::kLevelTwice, name.span, {name.text}).note(Kind::kFirstDeclaredHere, before->second);
-        continue;
-      }
-      draft.model.levels.emplace_back(name.text);
-      draft.model.level_spans.push_back(name.span);
-    }
+    if (!levels.names.empty()) lines.emplace_back(&levels, statement.span);
   });
+  if (lines.empty()) return;
+  const syntax::Levels* whole = lines.front().first;
+  for (const auto& [levels, span] : lines) {
+    if (contains(levels->names, whole->names)) whole = levels;
+    else if (!contains(whole->names, levels->names)) draft.diagnostics.report(Kind::kLevelsTwice, span).note(Kind::kFirstDeclaredHere, whole->names.front().span).note(Kind::kLevelsOnce, {});
+  }
+  std::unordered_map<std::string_view, source::Span> known;
+  for (const syntax::Name& name : whole->names) {
+    const auto [before, fresh] = known.emplace(name.text, name.span);
+    if (!fresh) {
+      draft.diagnostics.report(Kind::kLevelTwice, name.span, {name.text}).note(Kind::kFirstDeclaredHere, before->second);
+      continue;
+    }
+    draft.model.levels.emplace_back(name.text);
+    draft.model.level_spans.push_back(first_place(lines, name, draft.diagnostics.sources()));
+  }
 }
 
 void apply_settings(Draft& draft) { SettingsReader(draft).run(); }

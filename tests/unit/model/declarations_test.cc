@@ -115,6 +115,19 @@ TEST(Settings, MistakesAreNamed) {
   EXPECT_TRUE(Known("strategy U\n").said_only(Kind::kNoLevels));
 }
 
+TEST(Settings, WhoeverNamesAllLevelsInsertsMore) {
+  const std::vector<std::string> all{"a", "b", "c", "d"};
+  const Known outer("import \"few.kb\"\nlevels a > b > c > d\n", {{"few.kb", "levels a > c > d\n"}});
+  EXPECT_EQ(outer.said(), "");
+  EXPECT_EQ(outer.model().levels, all);
+  const Known inner("import \"all.kb\"\nlevels a > c > d\nlevels b > d\n", {{"all.kb", "levels a > b > c > d\n"}});
+  EXPECT_EQ(inner.said(), "");
+  EXPECT_EQ(inner.model().levels, all);
+  EXPECT_TRUE(Known("levels a > c\nlevels a > b > c\nlevels a > d > c\n").said_only(Kind::kLevelsTwice)) << "each inserts another";
+  EXPECT_TRUE(Known("levels a > c\nlevels c > b > a\n").said_only(Kind::kLevelsTwice));
+  EXPECT_TRUE(Known("levels a > c\nlevels a > c > d\n").said_only(Kind::kLevelsTwice)) << "the control level is one";
+}
+
 TEST(Priority, LinesMakeAPartialOrderThatIsExtended) {
   const std::string cells = "levels c\nnames S { a, b }\nstrategy Low\nstrategies G[S]\nstrategy Top\n";
   const Known known(cells + "priority Top > G\npriority G > Low\n");
