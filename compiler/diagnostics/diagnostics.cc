@@ -3,10 +3,12 @@
 #include <fmt/args.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "compiler/diagnostics/allowed.h"
 #include "compiler/diagnostics/display.h"
 #include "compiler/diagnostics/look_alike.h"
 
@@ -69,6 +71,8 @@ bool WarningOptions::apply(std::string_view option) {
   if (option == "no-error") return !(all_errors = false);
   if (option == "standard-library") return standard_library = true;
   if (option == "no-standard-library") return !(standard_library = false);
+  if (option == "allowed") return allowed = true;
+  if (option == "no-allowed") return !(allowed = false);
   const bool as_error = take("error=");
   const bool not_error = !as_error && take("no-error=");
   const bool disabled = !as_error && !not_error && take("no-");
@@ -107,13 +111,19 @@ Builder Diagnostics::report(Kind kind, source::Span at, std::initializer_list<st
 bool Diagnostics::wanted(Diagnostic& d) const {
   if (d.severity != Severity::kWarning) return true;
   const bool library = d.span.known() && sources_.standard(d.span.file) && !options_.standard_library;
-  if (options_.none || library || holds(options_.off, d.kind)) return false;
+  if (options_.none || library || holds(options_.off, d.kind) || (!options_.allowed && allowed_by_source(d))) return false;
   if (raised(d.kind)) d.severity = Severity::kError;
   return true;
 }
 
 bool Diagnostics::raised(Kind warning) const {
   return holds(options_.error, warning) || (options_.all_errors && !holds(options_.never_error, warning));
+}
+
+bool Diagnostics::allowed_by_source(const Diagnostic& d) const {
+  const std::string code = code_text(d.kind);
+  const auto allows = [&](source::Span at) { return is_allowed(sources_, at, info(d.kind).flag, code); };
+  return allows(d.span) || std::any_of(d.notes.begin(), d.notes.end(), [&](const Note& note) { return allows(note.span); });
 }
 
 // The first that is not handed on counts as well: it says that there are more.

@@ -83,7 +83,7 @@ class Consumer {
   virtual void consume(const Diagnostic& diagnostic) = 0;
 };
 
-/// Which warnings are shown, and which count as errors: -W…, -Wno-…, -Werror, -Werror=…, -w, -Wstandard-library.
+/// Which warnings are shown, and which count as errors: -W…, -Wno-…, -Werror, -Werror=…, -w, -Wstandard-library, -Wallowed.
 struct WarningOptions {
   std::vector<bool> off;      ///< by Kind; empty: all on
   std::vector<bool> error;    ///< by Kind; empty: none
@@ -91,6 +91,7 @@ struct WarningOptions {
   bool all_errors = false;    ///< -Werror
   bool none = false;          ///< -w
   bool standard_library = false;  ///< also warnings whose place is in a file of the standard library
+  bool allowed = false;       ///< also warnings that the source allows: see note [allowed warnings]
   /// Takes what stood after -W ("no-never-read", "error", "error=never-read", "never-read"). False if it names no warning.
   [[nodiscard]] bool apply(std::string_view option);
 };
@@ -171,6 +172,7 @@ class Diagnostics {
   friend class Builder;
   void finish(Diagnostic&& diagnostic);
   bool wanted(Diagnostic& diagnostic) const;
+  [[nodiscard]] bool allowed_by_source(const Diagnostic& diagnostic) const;
   [[nodiscard]] bool raised(Kind warning) const;   // to an error
   const source::Sources& sources_;
   Consumer& consumer_;

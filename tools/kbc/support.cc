@@ -29,7 +29,7 @@ void add_shared_options(CLI::App& app, SharedOptions& options, Shared which) {
   if (which == Shared::kCompiles) {
     group(app.add_option("--library", options.library, "The folder that holds the standard library `std`")->type_name("DIR"));
     group(app.add_option("-W", options.warnings,
-                         "-Wname, -Wno-name, -Werror, -Werror=name, -Wno-error=name, -Wstandard-library: which warnings "
+                         "-Wname, -Wno-name, -Werror, -Werror=name, -Wno-error=name, -Wstandard-library, -Wallowed: which warnings "
                          "are shown, and which are errors (`kbc explain --list` names them)")
               ->type_name("WARNING")
               ->allow_extra_args(false));

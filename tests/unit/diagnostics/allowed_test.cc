@@ -1,0 +1,53 @@
+// A comment allows the warnings of its line and of the statement below it.
+#include <gtest/gtest.h>
+
+#include "compiler/diagnostics/allowed.h"
+
+namespace kb::diagnostics {
+namespace {
+
+/// Whether `never-read` (KB1013) is allowed where the text has a `!`.
+bool allowed(std::string text) {
+  const std::size_t at = text.find('!');
+  text.erase(at, 1);
+  source::Sources sources;
+  const auto file = sources.add("a.kb", text);
+  const auto begin = static_cast<std::uint32_t>(at);
+  return is_allowed(sources, {file, begin, begin + 1}, "never-read", "KB1013");
+}
+
+TEST(Allowed, in_its_line_and_above_it) {
+  EXPECT_TRUE(allowed("fact !Gate   # allow: never-read\n"));
+  EXPECT_TRUE(allowed("# allow: never-read\nfact !Gate\n"));
+  EXPECT_TRUE(allowed("\n# allow: never-read\n# for the display\nfact !Gate"));
+  EXPECT_TRUE(allowed("# allow: never-read\r\nfact !Gate\r\n"));
+  EXPECT_FALSE(allowed("fact !Gate\n# allow: never-read\n"));
+  EXPECT_FALSE(allowed("# allow: never-read\n\nfact !Gate\n")) << "it belongs to nothing";
+  EXPECT_FALSE(allowed("fact Door   # allow: never-read\nfact !Gate\n"));
+}
+
+TEST(Allowed, above_the_statement_of_its_line) {
+  EXPECT_TRUE(allowed("# allow: never-read\nrule a at b\n    when C\n    then +!D\n"));
+  EXPECT_TRUE(allowed("rule a at b   # allow: never-read\n    when C\n    then +!D\n"));
+  EXPECT_TRUE(allowed("# allow: never-read\nmap M {\n    road A\n\n    road !B\n}\n"));
+  EXPECT_TRUE(allowed("rule a at b\n    when C\n    # allow: never-read\n    then +!D\n"));
+  EXPECT_FALSE(allowed("rule a at b\n    # allow: never-read\n    when C\n    then +!D\n")) << "it is for the line below it";
+  EXPECT_FALSE(allowed("map M {\n    road A   # allow: never-read\n    road !B\n}\n"));
+  EXPECT_FALSE(allowed("# allow: never-read\nfact C\nrule a at b\n    then +!D\n"));
+}
+
+TEST(Allowed, by_name_or_code_with_a_reason) {
+  EXPECT_TRUE(allowed("# allow: KB1013\nfact !Gate\n"));
+  EXPECT_TRUE(allowed("# allow: never-set, never-read\nfact !Gate\n"));
+  EXPECT_TRUE(allowed("# allow: never-set: by the program, never-read - on the display\nfact !Gate\n"));
+  EXPECT_TRUE(allowed("import \"a#b.kb\" fact !Gate # allow: never-read\n"));
+  EXPECT_FALSE(allowed("# allow: never-set\nfact !Gate\n"));
+  EXPECT_FALSE(allowed("# allow: never\nfact !Gate\n"));
+  EXPECT_FALSE(allowed("# allow never-read\nfact !Gate\n"));
+  EXPECT_FALSE(allowed("# we allow: never-read\nfact !Gate\n"));
+}
+
+TEST(Allowed, nothing_where_there_is_no_place) { EXPECT_FALSE(is_allowed(source::Sources(), {}, "never-read", "KB1013")); }
+
+}  // namespace
+}  // namespace kb::diagnostics
