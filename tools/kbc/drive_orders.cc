@@ -13,6 +13,7 @@
 #include "tools/kbc/layout_plant.h"
 #include "tools/kbc/vda5050/link/broker_url.h"
 #include "tools/kbc/vda5050/link/script_link.h"
+#include "tools/kbc/vda5050/read_order.h"
 #include "tools/kbc/vda5050/vehicle.h"
 
 namespace kb::cli {
@@ -156,6 +157,7 @@ std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMis
   auto messages = session.diagnostics(ground.compiled->sources);
   vda5050::LinkOptions how = options.link;
   vda5050::take_credentials(how);
+  how.prepare = [who = how.identity](vda5050::Message& message) { message.read = std::make_shared<vda5050::ReadMessage>(vda5050::read_message(message, who)); };
   how.will = [who = how.identity](std::uint32_t header_id, std::int64_t utc_us) { return vda5050::will_of(who, header_id, utc_us); };
   orders->link_ = vda5050::make_link(how, session.files(), ground.compiled->sources, messages);
   if (orders->link_ == nullptr) return nullptr;

@@ -9,9 +9,8 @@
 
 namespace kb::vda5050 {
 
-void Vehicle::State::take_instant_actions(const std::string& payload, std::int64_t utc_us) {
+void Vehicle::State::take_instant_actions(const std::variant<std::vector<Action>, Complaint>& read, std::int64_t utc_us) {
   changed = true;
-  const auto read = read_instant_actions(payload, identity);
   if (const auto* complaint = std::get_if<Complaint>(&read)) return complain(*complaint);
   for (const Action& action : std::get<std::vector<Action>>(read)) {
     const std::vector<std::pair<std::string, std::string>> about{{"topic", "instantActions"}, {"actionId", action.id}, {"actionType", action.type}};

@@ -3,16 +3,20 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 namespace kb::vda5050 {
+
+struct ReadMessage;   // read_order.h
 
 /// One message, JSON. `topic` is the last part of the name: `order`, `instantActions`; `state`, `connection`, `factsheet`, `visualization`.
 struct Message {
   std::string topic;
   std::string payload;
   bool retained = false;
+  std::shared_ptr<ReadMessage> read = {};   ///< of a message of the master: what it says, if a link has had it read already
 };
 
 /// The payload of a message that the link had to drop. It is no JSON, so no master sends it.
@@ -25,6 +29,9 @@ struct Identity {
 
 /// Makes what a broker sends if the vehicle disappears without leaving: from the number and the time of the message.
 using Will = std::function<Message(std::uint32_t header_id, std::int64_t utc_us)>;
+
+/// Prepares a message of the master for whoever takes it. A link may call it on a thread of its own.
+using Prepare = std::function<void(Message&)>;
 
 /// A carrier of messages: MQTT, or a script file.
 class Link {

@@ -331,4 +331,10 @@ std::variant<Position, std::string> read_position(const std::string& parameters)
   return position;
 }
 
+ReadMessage read_message(const Message& message, const Identity& identity) {
+  if (message.topic == "order") return {read_order(message.payload, identity)};
+  if (message.topic == "instantActions") return {read_instant_actions(message.payload, identity)};
+  return {};
+}
+
 }  // namespace kb::vda5050

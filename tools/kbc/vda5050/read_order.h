@@ -1,6 +1,7 @@
 // Reads a master's messages. Makes the checks that do not depend on the vehicle: 6.6.1 and 6.6.4.1 of VDA 5050 2.1.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -20,6 +21,15 @@ namespace kb::vda5050 {
 
 /// The same for instant actions; their list may be called `instantActions`, as before version 2.0.
 [[nodiscard]] std::variant<std::vector<Action>, Complaint> read_instant_actions(std::string_view payload, const Identity& identity);
+
+/// What a message says; or nothing, if its topic is none of the master's.
+struct ReadMessage {
+  using ReadOrder = std::variant<Order, Complaint>;
+  using ReadActions = std::variant<std::vector<Action>, Complaint>;
+  std::variant<std::monostate, ReadOrder, ReadActions> said;
+};
+/// Reads a message of any topic: a large order takes as long as several control periods, so a link has its own thread do it. Never throws.
+[[nodiscard]] ReadMessage read_message(const Message& message, const Identity& identity);
 
 /// The position that `initPosition` gives a vehicle.
 struct Position {

@@ -29,8 +29,9 @@ Vehicle::Vehicle(Vehicle&&) noexcept = default;
 
 void Vehicle::hear(const Message& message, std::int64_t utc_us) {
   state_->greet(utc_us);
-  if (message.topic == "order") state_->take_order(message.payload);
-  else if (message.topic == "instantActions") state_->take_instant_actions(message.payload, utc_us);
+  ReadMessage read = message.read != nullptr ? std::move(*message.read) : read_message(message, state_->identity);
+  if (auto* order = std::get_if<ReadMessage::ReadOrder>(&read.said)) state_->take_order(std::move(*order));
+  else if (const auto* actions = std::get_if<ReadMessage::ReadActions>(&read.said)) state_->take_instant_actions(*actions, utc_us);
   else return;
   state_->settle();
   state_->finish(utc_us);
@@ -81,9 +82,8 @@ void Vehicle::State::complain(Complaint complaint) {
   if (complaints.size() > kMostComplaints) complaints.erase(complaints.begin());
 }
 
-void Vehicle::State::take_order(const std::string& payload) {
+void Vehicle::State::take_order(std::variant<Order, Complaint> read) {
   changed = true;   // each order is answered by a state (6.10)
-  auto read = read_order(payload, identity);
   if (auto* complaint = std::get_if<Complaint>(&read)) return complain(std::move(*complaint));
   auto& order = std::get<Order>(read);
   if (!obeys()) return complain({"orderError", "the vehicle is in mode " + condition.mode, {{"topic", "order"}, {"orderId", order.id}, {"orderUpdateId", std::to_string(order.update)}}});

@@ -106,7 +106,8 @@ class Vehicle {
   Vehicle(Vehicle&&) noexcept;
   Vehicle& operator=(Vehicle&&) = delete;
 
-  /// Takes a message of the master. If it is refused, the next state reports an error. Never throws because of its contents.
+  /// Takes a message of the master; what was read of it already is taken out. If it is refused, the next state reports an error. Never throws because
+  /// of its contents.
   void hear(const Message& message, std::int64_t utc_us);
   /// To be called every control period.
   void observe(const Progress& progress, const Condition& condition, const std::vector<HostActionState>& states, Moment now);

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "tools/kbc/vda5050/action_book.h"
@@ -38,7 +39,7 @@ struct Vehicle::State {
   // vehicle.cc
   void greet(std::int64_t utc_us);
   void tell_again(std::int64_t utc_us);
-  void take_order(const std::string& payload);
+  void take_order(std::variant<Order, Complaint> read);
   void complain(Complaint complaint);
   [[nodiscard]] std::optional<Complaint> object_to(const Order& order, bool update) const;
   void begin(Order order);
@@ -79,7 +80,7 @@ struct Vehicle::State {
   [[nodiscard]] bool base_request() const { return book.has_horizon() && book.at() + 1 >= book.base_end(); }
 
   // instruct.cc
-  void take_instant_actions(const std::string& payload, std::int64_t utc_us);
+  void take_instant_actions(const std::variant<std::vector<Action>, Complaint>& read, std::int64_t utc_us);
   void instruct(const Action& action, std::int64_t utc_us);
   void cancel_order(const Action& action);
   void try_skill(const Action& action);

@@ -73,7 +73,7 @@ std::unique_ptr<Link> make_mqtt_link(const LinkOptions& options, const source::F
   const Identity& who = options.identity;
   std::string error;
   auto link = open_mqtt({std::move(broker), options.password, options.ca_file, fmt::format("{}/v2/{}/{}", options.interface_name, who.manufacturer, who.serial),
-                         fmt::format("waymark-{}-{}", who.manufacturer, who.serial), options.will}, error);
+                         fmt::format("waymark-{}-{}", who.manufacturer, who.serial), options.will, options.prepare}, error);
   if (link == nullptr) diagnostics.report(Kind::kLinkUrl, {}, {url, error});
   return link;
 }

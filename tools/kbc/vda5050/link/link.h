@@ -18,6 +18,7 @@ struct LinkOptions {
   std::string ca_file;                 ///< with `mqtts://`: the trusted certificate authorities, PEM; empty: those of the system
   std::string user, password;          ///< for the broker; empty: none. A user in the URL overrides this one
   Will will;                           ///< what the broker sends if the vehicle disappears without leaving
+  Prepare prepare;                     ///< what is done with each message of the master before it can be taken; empty: nothing
 };
 
 /// Takes WAYMARK_MQTT_USER and WAYMARK_MQTT_PASSWORD from the environment.

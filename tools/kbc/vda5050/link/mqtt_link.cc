@@ -291,13 +291,15 @@ void Session::on_disconnect() {
 void Session::on_message(const mosquitto_message& message) {
   const std::string_view name(message.topic);
   const auto size = static_cast<std::size_t>(message.payloadlen);
-  const std::lock_guard lock(mutex_);
   const std::string last(name.substr(name.rfind('/') + 1));
+  Message came{last, std::string(static_cast<const char*>(message.payload), std::min(size, kMostBytes + 1))};
+  if (options_.prepare && !message.retain) options_.prepare(came);
+  const std::lock_guard lock(mutex_);
   if (message.retain) return tell(fmt::format("`{}` that the broker had kept is passed over: it may be of any day", last));
   const bool room = came_.size() < kMostWaiting;
   if (!room || size > kMostBytes) ++dropped_;
   if (room) {
-    came_.push_back({last, std::string(static_cast<const char*>(message.payload), std::min(size, kMostBytes + 1))});
+    came_.push_back(std::move(came));
   } else if (std::none_of(came_.begin(), came_.end(), [&](const Message& one) { return one.topic == last && one.payload == kDropped; })) {
     came_.push_back({last, kDropped});
   }

@@ -22,6 +22,7 @@ struct MqttOptions {
   std::string topics;      ///< the prefix of each topic, `uagv/v2/Acme/7`
   std::string client;      ///< its name to the broker, unique among clients
   Will will;               ///< what the broker sends if the vehicle disappears without leaving; called by the thread, for each connection
+  Prepare prepare;         ///< called by the thread with each message of the master; may be empty
 };
 
 /// Whether this program can speak MQTT.
