@@ -169,13 +169,23 @@ class ConditionQuestions {
       end.first = "an `any` in its condition asks a relation that has no rows";
       return end;
     }
-    const std::string words = "`" + print_condition(program_, part) + "`";
-    if (cond.op == Cond::Op::kIs && program_[cond.cell].kind == program::CellKind::kSatellite) {
-      end.first = words + " never holds, whatever the rules write";
-    } else {
-      end.first = words + " never holds";
-    }
+    end.first = "`" + print_condition(program_, part) + "` never holds" + reason(part);
     return end;
+  }
+
+  /// Why a part that can never hold does not, if that comes from one satellite.
+  [[nodiscard]] std::string reason(CondId part) {
+    const CondId whole = part;
+    for (const Cond* cond = &program_[part]; cond->op == Cond::Op::kFor || cond->op == Cond::Op::kAnd; cond = &program_[part]) {
+      const auto dead = std::ranges::find_if(cond->children, [&](CondId one) { return impossible({{one, true}}, 0); });
+      if (dead == cond->children.end()) return {};
+      part = *dead;
+    }
+    const Cond& cond = program_[part];
+    if (cond.op != Cond::Op::kIs || program_[cond.cell].kind != program::CellKind::kSatellite) return {};
+    const bool never_raised = cond.term == program::Term::kHigh && subject_.raiser[program::index(cond.cell)] == RuleId::kNone;
+    if (!never_raised) return part == whole ? ", whatever the rules write" : "";
+    return part == whole ? ": no rule raises it" : fmt::format(": no rule raises `{}`", program_[cond.cell].name);
   }
 
   void diagnose_always_true() {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "compiler/program/conditions.h"
-#include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
 namespace {
@@ -26,24 +25,6 @@ bool high_while_seen(const program::Program& program, CellId fact) {
 }
 
 }  // namespace
-
-std::vector<bool> exclusive_at_all_times(const program::Program& program) {
-  std::vector<bool> exclusive;
-  for (const std::vector<CellId>& group : program.exclusive) {
-    const auto up = std::count_if(group.begin(), group.end(), [&](CellId c) { return program[c].initial > 0.0f; });
-    const bool kept = std::any_of(group.begin(), group.end(), [&](CellId c) { return program[c].keep; });
-    exclusive.push_back(up == 0 || (up == 1 && !kept));
-  }
-  const std::vector<std::uint32_t> group_of = program::group_of_cells(program);
-  for (const program::Rule& rule : program.rules) {
-    for (const program::Write& write : rule.writes) {
-      const std::uint32_t group = group_of[program::index(write.cell)];
-      const bool between = write.value > -1.0f && write.value <= 0.0f;
-      if (between && std::binary_search(rule.clears.begin(), rule.clears.end(), group)) exclusive[group] = false;
-    }
-  }
-  return exclusive;
-}
 
 Satisfier::Satisfier(const program::Program& program, const Domains& domains, Confusions* confusions)
     : program_(program), domains_(domains), confusions_(program.perception.perceived.size() > 1 ? confusions : nullptr) {

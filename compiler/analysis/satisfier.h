@@ -49,9 +49,7 @@ struct Demands {
 /// Whether two sets of demands leave every variable at least one value. Cheap; `false` is certain.
 [[nodiscard]] bool compatible(const Demands& a, const Demands& b);
 
-/// By group: whether one member at most is high at any time. Positive writes and their blends keep it so,
-/// unless a group starts with two members up, a reset brings one up beside one that is kept, or a rule raises one and
-/// leaves another above -1 by a later effect (`+A, B = 0`).
+/// By group: whether one member at most is above 0 at any time, whichever rules fire. (In exclusivity.cc; see note [two members up].)
 [[nodiscard]] std::vector<bool> exclusive_at_all_times(const program::Program& program);
 
 class Satisfier {

@@ -64,8 +64,9 @@ std::uint32_t Conditions::add(Pattern pattern) {
   return static_cast<std::uint32_t>(patterns_.size() - 1);
 }
 
-std::uint32_t Conditions::compile(syntax::CondId id) {
+std::uint32_t Conditions::compile(syntax::CondId id, bool loose) {
   const std::uint32_t made = add(read(tree_[id]));
+  patterns_[made].loose = loose;
   if (!patterns_[made].same) return made;
   CondId cond{};
   switch (evaluate(made, {}, cond)) {
@@ -79,10 +80,18 @@ std::uint32_t Conditions::compile(syntax::CondId id) {
   return made;
 }
 
+bool Conditions::is_loose(const syntax::Cond& around, syntax::CondId part) {
+  const syntax::Cond& timer = tree_[part];
+  if (!of_rule_ || around.kind != syntax::Cond::Kind::kAnd || timer.kind != syntax::Cond::Kind::kFor) return false;
+  const bool loose = !timer.parenthesised && !tree_[timer.children.front()].parenthesised;
+  loose_timers_ = loose_timers_ || loose;
+  return loose;
+}
+
 void Conditions::read_children(const syntax::Cond& cond, Pattern& pattern) {
   pattern.same = true;
   for (const syntax::CondId child : cond.children) {
-    pattern.children.push_back(compile(child));
+    pattern.children.push_back(compile(child, is_loose(cond, child)));
     pattern.same = pattern.same && patterns_[pattern.children.back()].same;
   }
 }
@@ -200,6 +209,7 @@ Outcome Conditions::evaluate(std::uint32_t id, Environment values, CondId& made)
             : pattern.op == Pattern::Op::kNot ? Cond::Op::kNot
                                               : Cond::Op::kFor;
   cond.duration_us = pattern.duration_us;
+  cond.loose = pattern.loose;
   cond.children.reserve(pattern.children.size());
   Outcome worst = Outcome::kMade;
   for (const std::uint32_t child : pattern.children) {

@@ -282,5 +282,6 @@ void forget_roads(Draft& draft);          // maps.cc: not needed from here on, a
 void expand_rules(Draft& draft);          // expand.cc
 void order_strategies(Draft& draft);      // priority.cc
 void bind_controllers(Draft& draft);      // controls.cc
+void report_unused(Draft& draft);         // unused.cc: declarations that nothing names
 
 }  // namespace kb::model

@@ -104,11 +104,16 @@ struct Relation {
   source::Span declared;
 };
 
+/// note [loose timers]
+/// In `A and B for 1 s` only `B` is timed, where a reader may think of both. Such a timer is loose: a part of an `and` with parentheses neither
+/// round the timer nor round what it times. It is told for rules only, since conditions are shared once they are lowered.
+
 /// A resolved condition. `and` of none is true, `or` of none is false.
 struct Cond {
   enum class Op : std::uint8_t { kAnd, kOr, kNot, kFor, kEvent, kLost, kSeen, kIs };
   Op op = Op::kAnd;
   syntax::Term term = syntax::Term::kHigh;  ///< kIs
+  bool loose = false;                       ///< kFor: see note [loose timers]
   CellId cell = CellId::kNone;              ///< kEvent, kLost, kSeen, kIs
   std::uint32_t duration_us = 0;            ///< kFor
   source::Few<CondId, 4> children;          ///< kAnd, kOr; kNot, kFor: one
@@ -124,6 +129,7 @@ struct Template {
   bool standard = false;      ///< from the standard library
   std::uint32_t level = 0;    ///< index into `levels`, 0 the highest
   syntax::Rule::Mode mode = syntax::Rule::Mode::kWhen;
+  bool loose_timers = false;  ///< its condition has some: see note [loose timers]
 };
 
 struct Rule {

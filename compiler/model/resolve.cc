@@ -15,6 +15,7 @@ Model resolve(const Forest& forest, diagnostics::Diagnostics& diagnostics, Stand
       declare_sensors, declare_fuzzy,   declare_tables, apply_settings,    plan_routes,
       report_islands, write_rows,      plan_detours,    attach_satellites, read_perception, order_perception,
       resolve_kept_conditions,          forget_roads,   expand_rules,   order_strategies,  bind_controllers,
+      report_unused,
   };
   for (const auto step : kSteps) {
     if (!draft.exhausted) step(draft);

@@ -118,6 +118,9 @@ class Lowering {
     std::vector<CondId> conditions;
     conditions.reserve(model_.rules.size());
     for (const model::Rule& from : model_.rules) conditions.push_back(lower_condition(from.condition));
+    for (std::uint32_t i = 0; i < model_.rules.size(); ++i) {
+      if (model_[model_.rules[i].tmpl].loose_timers) find_loose_timers(i, model_.rules[i].condition);
+    }
     cond_of_ = {};
     place_of_.resize(model_.templates.size(), kNoPlace);
     program_.rules.reserve(model_.rules.size() + model_.priority.size());
@@ -125,7 +128,20 @@ class Lowering {
     std::iota(order.begin(), order.end(), 0u);
     const auto level_of = [&](std::uint32_t rule) { return model_[model_.rules[rule].tmpl].level; };
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return level_of(a) < level_of(b); });
-    for (const std::uint32_t i : order) program_.rules.push_back(lower_rule(model_.rules[i], conditions[i], group_of));
+    for (const std::uint32_t i : order) {
+      const RuleId made{static_cast<std::uint32_t>(program_.rules.size())};
+      program_.rules.push_back(lower_rule(model_.rules[i], conditions[i], group_of));
+      for (auto loose = std::ranges::lower_bound(loose_, i, {}, &Loose::rule); loose != loose_.end() && loose->rule == i; ++loose) {
+        program_.loose_timers.push_back({made, loose->timer});
+      }
+    }
+  }
+
+  void find_loose_timers(std::uint32_t rule, model::CondId id) {
+    const model::Cond& cond = model_[id];
+    if (cond.loose) loose_.push_back({rule, cond_of_[model::index(id)]});
+    if (cond.op != model::Cond::Op::kAnd && cond.op != model::Cond::Op::kOr) return;
+    for (const model::CondId part : cond.children) find_loose_timers(rule, part);
   }
 
   Rule lower_rule(const model::Rule& from, CondId condition, const std::vector<std::uint32_t>& group_of) {
@@ -159,6 +175,8 @@ class Lowering {
     program_.controls.push_back(std::move(control));
   }
 
+  struct Loose { std::uint32_t rule; CondId timer; };   // the rule of the model
+
   const model::Model& model_;
   const source::Sources& sources_;
   Program program_;
@@ -167,6 +185,7 @@ class Lowering {
   std::vector<CondId> cond_of_;                 // by model condition
   std::vector<std::uint32_t> place_of_;         // by template: the place of its rules, or kNoPlace
   std::vector<Effect> effects_;                 // of one rule
+  std::vector<Loose> loose_;                    // ascending by rule
 };
 
 }  // namespace

@@ -113,6 +113,12 @@ struct Control {
   source::Span controller_span;
 };
 
+/// A timer that a rule's condition has as a part of an `and`, without parentheses: see note [loose timers] in compiler/model/model.h.
+struct LooseTimer {
+  RuleId rule = RuleId::kNone;
+  CondId timer = CondId::kNone;
+};
+
 /// How fast the robot may drive while the satellite of a leg is high.
 struct LegLimit {
   CellId leg = CellId::kNone;
@@ -133,6 +139,7 @@ struct Program {
   std::vector<std::string> places;  ///< source places of rules, each once: "file:line:col"; "priority" for generated ones
   std::vector<Control> controls;
   std::vector<LegLimit> limits;           ///< of the legs whose road has one
+  std::vector<LooseTimer> loose_timers;   ///< ascending by rule; only a program that comes from its text has them
   Perception perception;
   std::vector<fuzzy::Controller> fuzzy;   ///< in order of declaration
 

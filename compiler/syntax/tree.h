@@ -91,6 +91,7 @@ struct Cond {
   bool sat = false;            ///< kIs, kAny: `sat` stood before the reference
   bool none = false;           ///< kAny: `no` instead of `any`
   bool negated = false;        ///< kIs: `is not`
+  bool parenthesised = false;  ///< parentheses of its own stand round it
   Name term;                   ///< kIs: the word after `is`, empty text if there was no `is` (then the term is high)
 };
 

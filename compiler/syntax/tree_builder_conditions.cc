@@ -72,6 +72,7 @@ TreeBuilder::Id TreeBuilder::parenthesised(Span span, Id condition) {
   const auto depth = static_cast<std::uint16_t>(cond_depths_[condition] + 1);
   if (depth > kMaxNesting) return too_deep(span);
   cond_depths_[condition] = depth;
+  tree_.conds[condition].parenthesised = true;
   return condition;
 }
 

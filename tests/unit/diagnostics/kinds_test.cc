@@ -62,7 +62,7 @@ struct Range { unsigned first, last; };
 // See kinds.def. Limits (KB08xx) may stand in any family.
 const std::multimap<std::string_view, Range> kRanges = {
     {"lexis", {100, 199}},  {"syntax", {200, 299}},     {"model", {300, 799}}, {"model", {912, 919}},
-    {"model", {1050, 1099}}, {"analysis", {1000, 1049}}, {"fuzzy", {1100, 1159}}, {"perception", {1160, 1199}},
+    {"model", {1050, 1089}}, {"analysis", {1000, 1049}}, {"analysis", {1090, 1099}}, {"fuzzy", {1100, 1159}}, {"perception", {1160, 1199}},
     {"files", {900, 920}}, {"files", {990, 999}}, {"traces", {921, 989}}, {"plans", {1200, 1299}}, {"sim", {1300, 1399}}, {"sim", {1500, 1599}},
     {"layouts", {1400, 1499}}};
 
