@@ -81,7 +81,8 @@ constexpr std::array kCommands = {
             "kbc expand mission.kb                           # everything\n"
             "kbc expand mission.kb --rule enter              # the instances of one rule\n"
             "kbc expand mission.kb --level passage           # one level\n"
-            "kbc expand mission.kb --cell Gate               # the rules that read or write a cell\n",
+            "kbc expand mission.kb --cell Gate               # the rules that write a cell, then those that read it\n"
+            "kbc expand mission.kb --cell 'Say.* Gate'       # of several cells; a group means all of its members\n",
             Shared::kCompiles, setup_expand},
     Command{"dump", "Print what the compiler holds after each phase",
             "Prints one item on each line, in an order that does not change from run to run.",

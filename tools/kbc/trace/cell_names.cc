@@ -72,6 +72,22 @@ std::vector<std::string_view> CellNames::members(std::string_view name, std::opt
   return found;
 }
 
+std::vector<CellId> find_cells(const program::Program& program, std::string_view names, std::vector<std::string>* vain) {
+  const CellNames known(program);
+  if (const CellId cell = known.find(names); cell != CellId::kNone) return {cell};   // its name may have blanks: `Near[left, far]`
+  std::vector<CellId> found;
+  for (const std::string_view one : patterns_of(names)) {
+    const CellId cell = known.find(one);
+    const std::size_t before = found.size();
+    if (cell != CellId::kNone) found.push_back(cell);
+    else for (const std::string_view member : known.members(one)) found.push_back(known.find(member));
+    if (found.size() == before && vain != nullptr) vain->emplace_back(one);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
 std::vector<RuleId> find_rules(const program::Program& program, std::string_view name) {
   const std::string plain = plain_name(name);
   std::vector<RuleId> found;

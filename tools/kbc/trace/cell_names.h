@@ -33,6 +33,10 @@ class CellNames {
   std::unordered_map<std::string, program::CellId> cells_;  // by plain name; only looked up, never iterated
 };
 
+/// The cells that `names` means, separated by blanks: each is one cell, a group, for all of its members, or a pattern (see `matches`). Ascending.
+/// Those that mean no cell are added to `vain`.
+[[nodiscard]] std::vector<program::CellId> find_cells(const program::Program& program, std::string_view names, std::vector<std::string>* vain = nullptr);
+
 /// The rules that `name` means: all instances of a template, or the one instance. Ascending; empty if there is none.
 [[nodiscard]] std::vector<program::RuleId> find_rules(const program::Program& program, std::string_view name);
 /// The name of a template or an instance that is nearest to `name`.
