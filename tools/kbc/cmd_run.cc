@@ -219,7 +219,7 @@ Run setup_run(CLI::App& app) {
   auto* html = app.add_option("--html", options->html, "Write a page that plays the run and explains each decision to this file")->type_name("FILE");
   auto* table =
       app.add_flag("--table", options->table, "Print cells by ticks: the cells that change, at ticks when one does; and the strategy that runs, if the cells do not show it");
-  app.add_option("--cells", options->shown.cells, "With --table: the cells that match, such as 'Move.* sat LM?'")->type_name("NAMES")
+  app.add_option("--cells", options->shown.cells, "With --table: of the cells that match, such as 'Move.* sat LM?', those that change; a name in full, such as Gate, is always shown")->type_name("NAMES")
       ->needs(table);
   app.add_option("--ticks", options->ticks, "With --table: these ticks, such as 7, 7-19, 7-")->type_name("TICKS")
       ->needs(table)

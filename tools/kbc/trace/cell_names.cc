@@ -115,6 +115,12 @@ bool matches(std::string_view pattern, std::string_view name) {
                      [&](std::string_view one) { return matches_glob(one, name) || matches_glob(plain_name(one), plain); });
 }
 
+bool is_named(std::string_view pattern, std::string_view name) {
+  const std::string plain = plain_name(name);
+  const std::vector<std::string_view> patterns = patterns_of(pattern);
+  return std::any_of(patterns.begin(), patterns.end(), [&](std::string_view one) { return plain_name(one) == plain; });
+}
+
 std::vector<std::string> vain_patterns(const program::Program& program, std::string_view pattern) {
   std::vector<std::string> vain;
   const std::vector<std::string_view> patterns = patterns_of(pattern);

@@ -46,6 +46,9 @@ class CellNames {
 /// spelling. There may be several patterns separated by blanks, of which one has to match. O(pattern * name).
 [[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
 
+/// True if one of the patterns is this name, in either spelling, without `*` and `?`.
+[[nodiscard]] bool is_named(std::string_view pattern, std::string_view name);
+
 /// The patterns in `pattern` that match no cell; all of `pattern`, if it is blank.
 [[nodiscard]] std::vector<std::string> vain_patterns(const program::Program& program, std::string_view pattern);
 /// The probable meaning of a pattern that matches no cell: the members of a group, several patterns joined by commas, a similar name.
