@@ -40,7 +40,7 @@ constexpr std::array kCommands = {
             "kbc test tests                                  # all cases in a folder and below\n"
             "kbc test tests --filter 'detour*'               # those with such names\n"
             "kbc test tests --update                         # accept what happens now, then look at the difference\n"
-            "kbc test tests --coverage                       # which rules, landmarks, events were exercised\n"
+            "kbc test tests --coverage                       # which of your rules, landmarks, events were exercised\n"
             "kbc test tests --junit results.xml              # for a build server\n",
             Shared::kCompiles, setup_test},
     Command{"why", "Say why a rule, a cell or a strategy did what it did at a tick",
