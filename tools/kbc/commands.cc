@@ -30,6 +30,7 @@ constexpr std::array kCommands = {
             "rows, so a drive written by hand needs only a row for each change. Memory grows with the number of ticks only with --table.",
             "kbc run mission.kb --facts drive.csv --trace drive.jsonl   # a line of JSON a tick\n"
             "kbc run mission.kb --facts drive.csv --table               # cells by ticks, for people\n"
+            "kbc run mission.kb --facts drive.csv --conflicts           # which rules contradicted each other, and how often\n"
             "kbc run mission.kb --facts - --dt 10ms < drive.csv         # from a pipe, a tick each 10 ms\n",
             Shared::kCompiles, setup_run},
     Command{"test", "Compare golden traces with what happens now",
