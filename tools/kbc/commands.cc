@@ -19,9 +19,10 @@ constexpr std::array kCommands = {
             "kbc compile mission.kb --emit image             # mission.kbt, which a running robot can take\n",
             Shared::kCompiles, setup_compile},
     Command{"check", "Say what is wrong with knowledge bases",
-            "Reads, resolves and analyses, and makes nothing. Silent if all is well.",
+            "Reads, resolves and analyses, and makes nothing. Silent if all is well. Name the main files; a file that is a part of one, and uses what others declare, "
+            "is checked with it, and not by itself.",
             "kbc check mission.kb                            # errors and warnings\n"
-            "kbc check -Werror -Wno-never-read *.kb          # for a build server: warnings are errors, but for one kind\n"
+            "kbc check -Werror -Wno-never-read mission.kb    # for a build server: warnings are errors, but for one kind\n"
             "kbc check --diagnostics-format sarif mission.kb 2> mission.sarif\n",
             Shared::kCompiles, setup_check},
     Command{"run", "Feed facts to a knowledge base and see what it decides",
