@@ -28,7 +28,8 @@ constexpr std::array kCommands = {
     Command{"run", "Feed facts to a knowledge base and see what it decides",
             "Facts are CSV: a header of the facts' names (and perhaps `t`, a time in seconds), then one row for each tick. An empty "
             "field means \"no data\" (in a file of one column `\"\"`; an empty line is no row). After a line `# empty: as before, every: 100 ms` it repeats the row before, and ticks are filled in between "
-            "rows, so a drive written by hand needs only a row for each change. Memory grows with the number of ticks only with --table.",
+            "rows, so a drive written by hand needs only a row for each change. With --readings an empty field of a sensor means \"nothing new\": the last reading stays and, if the sensor has "
+            "`stale`, grows old, also on ticks that are filled in; after `# empty: measured again, every: 100 ms` it is measured again on each tick. Memory grows with the number of ticks only with --table.",
             "kbc run mission.kb --facts drive.csv --trace drive.jsonl   # a line of JSON a tick\n"
             "kbc run mission.kb --facts drive.csv --table               # cells by ticks, for people\n"
             "kbc run mission.kb --facts drive.csv --conflicts           # which rules contradicted each other, and how often\n"
