@@ -21,4 +21,7 @@ using KnownArguments = std::map<std::string_view, std::vector<std::string_view>>
 /// Cost: near linear in the program (see note [conflict buckets]).
 void diagnose(const model::Model& model, const program::Program& program, const KnownArguments& known, diagnostics::Diagnostics& diagnostics);
 
+/// By rule: whether no instance of its rule as written can ever fire. Nothing is reported; `diagnostics` knows the sources.
+[[nodiscard]] std::vector<bool> find_dead_rules(const model::Model& model, const program::Program& program, diagnostics::Diagnostics& diagnostics);
+
 }  // namespace kb::analysis

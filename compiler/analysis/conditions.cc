@@ -44,6 +44,17 @@ class ConditionQuestions {
     diagnose_start();
   }
 
+  /// By rule: whether no instance of its rule as written can ever fire.
+  [[nodiscard]] std::vector<bool> dead_rules() {
+    std::vector<bool> dead(program_.rules.size(), false);
+    find_dead_ends().for_each([&](RuleId id, bool, std::uint32_t count) {
+      const std::uint32_t family = subject_.family[program::index(id)];
+      if (count < subject_.instances[family]) return;
+      for (std::size_t i = program::index(id); i < dead.size(); ++i) dead[i] = dead[i] || subject_.family[i] == family;
+    });
+    return dead;
+  }
+
  private:
   [[nodiscard]] bool impossible(std::initializer_list<Goal> goals, std::uint32_t level) {
     return narrow_satisfier_.together(goals, level) == Answer::kNo;
@@ -118,7 +129,8 @@ class ConditionQuestions {
   /// To be cleared before each question.
   [[nodiscard]] std::vector<bool>::reference settled(std::uint32_t rule) { return settled_[subject_.family[rule]]; }
 
-  void diagnose_dead_ends() {
+  /// The instances that can never fire, of rules all of whose instances so far cannot.
+  [[nodiscard]] ByFamily<bool> find_dead_ends() {
     settled_.assign(subject_.instances.size(), false);
     ByFamily<bool> dead(subject_);
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
@@ -127,8 +139,12 @@ class ConditionQuestions {
       if (impossible({{rule.condition, true}}, rule.level)) dead.add(RuleId{i}, true);
       else settled(i) = true;
     }
+    return dead;
+  }
+
+  void diagnose_dead_ends() {
     // In most knowledge bases some instances of a general rule can never fire. It is reported only if none of them can.
-    dead.for_each([&](RuleId id, bool, std::uint32_t count) {
+    find_dead_ends().for_each([&](RuleId id, bool, std::uint32_t count) {
       const Rule& rule = program_[id];
       const std::uint32_t family = subject_.family[program::index(id)];
       if (count < subject_.instances[family] || undecided_[family]) return;
@@ -298,5 +314,10 @@ class ConditionQuestions {
 }  // namespace
 
 void diagnose_conditions(Subject& subject) { ConditionQuestions(subject).run(); }
+
+std::vector<bool> find_dead_rules(const model::Model& model, const Program& program, diagnostics::Diagnostics& diagnostics) {
+  Subject subject = study(model, program, diagnostics);
+  return ConditionQuestions(subject).dead_rules();
+}
 
 }  // namespace kb::analysis

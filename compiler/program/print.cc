@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 #include "compiler/program/program.h"
 #include "compiler/program/text.h"
@@ -213,17 +212,6 @@ void append_names(std::string& out, const Program& program, std::string_view wor
   out += '\n';
 }
 
-/// By condition: whether it asks for the cell.
-std::vector<bool> mentions(const Program& program, std::string_view cell) {
-  return marked(program, [&](const Cond& cond) { return !has_parts(cond.op) && program[cond.cell].name == cell; });
-}
-
-bool writes(const Program& program, const Rule& rule, std::string_view cell) {
-  bool found = false;
-  for_each_net_write(program, rule, [&](CellId id, float) { found = found || program[id].name == cell; });
-  return found;
-}
-
 /// `sensor range[8] 0..4 m noise 0.02 m stale 0.2 s`, `perceive Line = ...`.
 void append_perception(std::string& out, const Program& program) {
   for (const Sensor& sensor : program.perception.sensors) {
@@ -283,12 +271,10 @@ std::string print(const Program& program) {
 
 std::vector<RuleId> select(const Program& program, const Filter& filter) {
   std::vector<RuleId> passed;
-  const std::vector<bool> reads = filter.cell.empty() ? std::vector<bool>() : mentions(program, filter.cell);
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];
     if (!filter.rule.empty() && rule.name != filter.rule && rule.tmpl() != filter.rule) continue;
     if (!filter.level.empty() && program.levels[rule.level] != filter.level) continue;
-    if (!filter.cell.empty() && !reads[index(rule.condition)] && !writes(program, rule, filter.cell)) continue;
     passed.push_back(RuleId{i});
   }
   return passed;

@@ -204,7 +204,6 @@ struct CellRun { CellId first{}; std::uint32_t count = 0; };
 struct Filter {
   std::string_view rule;  ///< full name, or the name of the rule as written: `enter[right,mark]`, `enter`
   std::string_view level;
-  std::string_view cell;  ///< a cell that the rule reads or writes
 };
 /// The rules that pass, in the program's order.
 [[nodiscard]] std::vector<RuleId> select(const Program& program, const Filter& filter);

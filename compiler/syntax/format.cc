@@ -88,6 +88,7 @@ class Formatter {
   void place(bool after_comment);
   void follow();
   void begin_line();
+  void begin_row(Line& line);
   [[nodiscard]] bool wants_line(bool after_comment) const;
   [[nodiscard]] bool wants_own_line() const;
   [[nodiscard]] bool must_stay() const;
@@ -96,6 +97,7 @@ class Formatter {
   struct Slot { std::uint32_t number; std::uint16_t gap, farthest = 0xFFFF; };
   [[nodiscard]] Slot slot() const;
   [[nodiscard]] bool table_on_one_line() const;
+  [[nodiscard]] bool is_later_field(std::size_t at) const { return tokens_[at - 1].kind == T::kComma && tokens_[at + 1].kind == T::kColon; }
 
   const source::Sources& sources_;
   std::vector<Token> comments_;
@@ -112,6 +114,8 @@ class Formatter {
   bool in_head_ = false;              // of an input or an output of a fuzzy block: before its brace
   bool in_terms_ = false;             // between its braces
   bool in_value_ = false;             // behind the arrow of a fuzzy rule
+  std::string_view relation_;         // of the last row
+  std::vector<std::string_view> fields_;   // of its rows, but for the first in each: they have columns in this order
 };
 
 bool Formatter::breaks_between(std::uint32_t from, std::uint32_t to, std::size_t lines) const {
@@ -200,7 +204,21 @@ void Formatter::begin_line() {
   line.family = family();
   line.begins_block = line.family == Family::kNone;
   line.cells.push_back({{}, 0, 0, 0});
+  if (line.family == Family::kRow) begin_row(line);
   lines_.push_back(std::move(line));
+}
+
+// Rows of one relation share columns; a field that a row leaves out leaves its column empty.
+void Formatter::begin_row(Line& line) {
+  for (std::size_t at = at_ + 1; at + 1 < tokens_.size() && !tokens_[at].begins_statement; ++at) {
+    const std::string_view text = sources_.text(tokens_[at].span);
+    if (tokens_[at - 1].kind == T::kIn && tokens_[at + 1].kind == T::kLeftParen && text != relation_) {
+      line.begins_block = true;
+      fields_.clear();
+      relation_ = text;
+    }
+    if (is_later_field(at) && std::find(fields_.begin(), fields_.end(), text) == fields_.end()) fields_.push_back(text);
+  }
 }
 
 void Formatter::follow() {
@@ -291,6 +309,7 @@ Family Formatter::family() const {
     case T::kPrototype:
     case T::kPerceive: return Family::kControl;
     case T::kSensor: return Family::kSensor;
+    case T::kRow: return Family::kRow;
     case T::kDetour: return Family::kPlan;
     default: return Family::kNone;
   }
@@ -314,6 +333,12 @@ Formatter::Slot Formatter::slot() const {
       const bool name = last() == T::kRightBracket || (last() == T::kIdentifier && tokens_[at_ - 2].begins_statement);
       if (outside && name && kind != T::kLeftBracket) return {1, 1};
       return kind == T::kNoise ? Slot{2, 2} : kind == T::kStale ? Slot{3, 2} : kind == T::kCircular ? Slot{4, 2} : kind == T::kStrict ? Slot{5, 2} : Slot{0, 0};
+    }
+    case Family::kRow: {
+      if (kind == T::kIn && outside) return {1, 1};
+      if (brackets_ != 1 || !is_later_field(at_)) return {0, 0};
+      const auto field = std::find(fields_.begin(), fields_.end(), sources_.text(token().span));
+      return {static_cast<std::uint32_t>(field - fields_.begin()) + 2, 1, kFarthestArrow};
     }
     case Family::kPlan: return kind == T::kOn ? Slot{1, 2} : kind == T::kWhen ? Slot{2, 2} : Slot{0, 0};
     case Family::kLandmark: return kind == T::kAt ? Slot{1, 1} : Slot{0, 0};

@@ -11,7 +11,7 @@ namespace kb::syntax {
 
 /// Neighbouring lines of one family share columns.
 enum class Family : std::uint8_t {
-  kNone, kDeclaration, kNames, kControl, kPlan, kLandmark, kRoad, kTable, kSensor, kFuzzyRule
+  kNone, kDeclaration, kNames, kControl, kPlan, kLandmark, kRoad, kTable, kSensor, kRow, kFuzzyRule
 };
 
 /// What stands in one column of a line.

@@ -39,6 +39,7 @@ class EventReader {
 
  private:
   bool read_trigger();
+  void report_no_trigger(TomlTable& when);
   bool when_time(TomlTable& when);
   bool when_road(TomlTable& when);
   bool when_crossing(TomlTable& when);
@@ -57,6 +58,11 @@ class EventReader {
   bool do_steel();
   bool do_power();
   bool do_kidnap();
+  /// The place in the event's own table; to be read last, as keys that nobody has asked for may be reported.
+  std::optional<Pose> read_place() {
+    static_cast<void>(table_.has("for"));
+    return names_.place(table_);
+  }
 
   TomlTable& table_;
   const Names& names_;
@@ -90,14 +96,26 @@ bool EventReader::read_trigger() {
     std::erase_if(said, [&](const Known* known) { return !is_set(known); });
     for (const char* where : {"metres", "going"}) static_cast<void>(when->is_set(where) || when->has(where));
   }
-  if (said.size() != 1) {
-    table_.diagnostics().report(Kind::kSimTrigger, said.empty() ? when->span() : when->span(said[1]->word), {said.empty() ? "nothing" : "more than one thing"});
+  if (said.empty()) {
+    report_no_trigger(*when);
+    return false;
+  }
+  if (said.size() > 1) {
+    table_.diagnostics().report(Kind::kSimTrigger, when->span(said[1]->word), {fmt::format("`{}` and `{}`", said[0]->word, said[1]->word)});
     return false;
   }
   event_.when.delay_s = when->number("delay", {0.0, kLong}).value_or(0.0);
   const bool good = said[0]->read(*this, *when);
   when->done();
   return good;
+}
+
+void EventReader::report_no_trigger(TomlTable& when) {
+  for (const char* beside : {"delay", "metres", "going"}) static_cast<void>(when.has(beside));
+  for (const char* other : {"landmark", "place"}) when.call(other, "crossing");
+  const std::size_t before = table_.diagnostics().errors();
+  when.done();   // a key that is there and means nothing may be the trigger
+  if (table_.diagnostics().errors() == before) table_.diagnostics().report(Kind::kSimTrigger, when.span(), {"nothing"});
 }
 
 bool EventReader::when_time(TomlTable& when) {
@@ -173,11 +191,11 @@ bool EventReader::do_obstacle(Do what, std::string_view key, std::string_view wo
   event_.action.obstacle.name = *name;
   event_.text = fmt::format("{} {}", *name, word);
   if (what == Do::kRemove) return true;
-  const auto place = names_.place(table_);
-  if (!place) return false;
-  event_.action.obstacle.at = {place->x_m, place->y_m};
   if (what == Do::kMove) event_.action.amount = table_.number("within", {0.0, kLong}).value_or(0.0);
   else event_.action.obstacle.radius_m = table_.number("radius", around({0.02, 1.0}, names_.labyrinth.size)).value_or(0.1);
+  const auto place = read_place();
+  if (!place) return false;
+  event_.action.obstacle.at = {place->x_m, place->y_m};
   return true;
 }
 
@@ -223,11 +241,12 @@ bool EventReader::do_sensor() { return read_sensor_fault(table_, event_); }
 
 bool EventReader::do_steel() {
   const auto name = table_.text("steel");
-  const auto place = name ? names_.place(table_) : std::nullopt;
+  const double radius_m = table_.number("radius", {0.05, 10.0}).value_or(0.5);
+  event_.action.amount = table_.number("degrees", {-180.0, 180.0}).value_or(20.0);
+  const auto place = name ? read_place() : std::nullopt;
   if (!place) return false;
   event_.action.kind = Do::kSteel;
-  event_.action.obstacle = {*name, {place->x_m, place->y_m}, table_.number("radius", {0.05, 10.0}).value_or(0.5)};
-  event_.action.amount = table_.number("degrees", {-180.0, 180.0}).value_or(20.0);
+  event_.action.obstacle = {*name, {place->x_m, place->y_m}, radius_m};
   event_.text = fmt::format("steel {} bends the compass", *name);
   return true;
 }
@@ -265,9 +284,7 @@ bool EventReader::do_press() {
 
 void EventReader::report_no_action() {
   static_cast<void>(table_.has("for"));
-  const std::size_t before = table_.diagnostics().errors();
-  table_.done();   // reports a misspelt word as one
-  if (table_.diagnostics().errors() == before) table_.missing("press` or another thing that happens, such as `close");
+  table_.missing_among("press` or another thing that happens, such as `close");
 }
 
 bool EventReader::read_action() {

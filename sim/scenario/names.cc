@@ -117,7 +117,10 @@ std::optional<Pose> Names::place(TomlTable& table) const {
   const auto at = table.pair("at", {low.x_m, high.x_m}, {low.y_m, high.y_m});
   const double degrees = table.number("heading", {-360.0, 360.0}).value_or(90.0);
   if (at) return Pose{at->x * labyrinth.scale, at->y * labyrinth.scale, wrap((90.0 - degrees) * kPi / 180.0)};
-  if (!table.has("at")) table.missing("road` or `crossing` or `at");
+  if (table.has("at")) return std::nullopt;
+  for (const char* beside : {"metres", "aside"}) static_cast<void>(table.has(beside));
+  for (const char* other : {"landmark", "place"}) table.call(other, "crossing");
+  table.missing_among("road` or `crossing` or `at");
   return std::nullopt;
 }
 

@@ -277,13 +277,22 @@ void TomlTable::unknown_name(std::string_view key, std::string_view kind, std::s
   message.note(Kind::kSimThereAre, {}, {diagnostics::in_a_row(candidates)});
 }
 
+void TomlTable::missing_among(std::string_view key) {
+  const std::size_t before = reported_.size();
+  done();
+  if (reported_.size() == before) missing(key);
+}
+
 void TomlTable::done(std::string_view inner, std::span<const std::string> of_inner) {
   for (const auto& [key, node] : *table_) {
-    if (is_asked(key)) continue;
+    if (is_asked(key) || std::ranges::find(reported_, key.str()) != reported_.end()) continue;
+    reported_.emplace_back(key.str());
     std::vector<std::string_view> candidates(asked_.begin(), asked_.end());
     const bool deeper = std::ranges::find(of_inner, key.str()) != of_inner.end();
+    const auto called = std::ranges::find(called_, key.str(), &std::pair<std::string_view, std::string_view>::first);
+    const auto better = called != called_.end() ? std::optional(std::string(called->second)) : diagnostics::closest(key.str(), candidates);
     diagnostics_->report(Kind::kSimUnknownKey, places_->span(key.source()), {key.str(), fmt::format("{} takes {}", what_, diagnostics::in_a_row(candidates))})
-        .suggest(deeper ? fmt::format("{}.{}", inner, key.str()) : diagnostics::closest(key.str(), candidates));
+        .suggest(deeper ? fmt::format("{}.{}", inner, key.str()) : better);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <toml++/toml.h>
@@ -67,8 +68,12 @@ class TomlTable {
   /// The place of a key's value, or of the table if the key has none.
   [[nodiscard]] source::Span span(std::string_view key = {}) const;
   void missing(std::string_view key);
+  /// The same; but if there are keys that nobody asked for, one of these may have been meant for it, and they are reported instead.
+  void missing_among(std::string_view key);
+  /// Says what is suggested for a key that means nothing.
+  void call(std::string_view wrong, std::string_view right) { called_.emplace_back(wrong, right); }
   void unknown_name(std::string_view key, std::string_view kind, std::string_view name, std::span<const std::string_view> candidates);
-  /// Reports the keys that were not read. `of_inner`: keys of the table `inner` within this one, which may have been meant.
+  /// Reports the keys that were not read, each once. `of_inner`: keys of the table `inner` within this one, which may have been meant.
   void done(std::string_view inner = {}, std::span<const std::string> of_inner = {});
   /// The keys that were asked for so far, there or not.
   [[nodiscard]] const std::vector<std::string>& asked() const { return asked_; }
@@ -84,7 +89,8 @@ class TomlTable {
   std::string what_;
   const TomlPlaces* places_;
   diagnostics::Diagnostics* diagnostics_;
-  std::vector<std::string> asked_;
+  std::vector<std::string> asked_, reported_;
+  std::vector<std::pair<std::string_view, std::string_view>> called_;
 };
 
 /// The range for a robot of that size: that of the usual robot, extended by the same range scaled.

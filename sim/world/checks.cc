@@ -1,6 +1,11 @@
 // Checks that landmarks, roads and walls leave each other room.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "compiler/diagnostics/display.h"
 #include "sim/world/geometry.h"
 #include "sim/world/parts.h"
 
@@ -13,22 +18,31 @@ using diagnostics::Kind;
 constexpr double kLeastBetween = 0.97 * kRoadWidth;   // between the middles of two roads; times the size
 constexpr double kLeastToWall = 0.2;                  // between the middle of a road and a wall; times the size
 
-bool check_landmarks(const Labyrinth& labyrinth, const Nearby& crossings, Diagnostics& diagnostics) {
-  bool good = true;
+/// Calls `visit(crossing, other)` for each two landmarks that leave their crossings no room, in ascending order.
+template <class Visit>
+void each_crowded(const Labyrinth& labyrinth, const Nearby& crossings, Visit visit) {
   const double least_m = 2.0 * labyrinth.size * kLeastStop;
   for (std::size_t i = 0; i < labyrinth.crossings.size(); ++i) {
     for (const std::uint32_t j : crossings.near(bounds_of(labyrinth.crossings[i].at), least_m)) {
       if (j >= i) break;
-      const Crossing& crossing = labyrinth.crossings[i];
-      const Crossing& other = labyrinth.crossings[j];
-      if (distance(crossing.at, other.at) >= least_m) continue;
-      diagnostics.report(Kind::kSimLandmarksCoincide, crossing.span,
-                         {crossing.name, other.name, fmt::format("{:.2f}", distance(crossing.at, other.at))})
-          .note(Kind::kSimOtherHere, other.span);
-      good = false;
+      if (distance(labyrinth.crossings[i].at, labyrinth.crossings[j].at) < least_m) visit(labyrinth.crossings[i], labyrinth.crossings[j]);
     }
   }
+}
+
+bool check_landmarks(const Labyrinth& labyrinth, const Nearby& crossings, Diagnostics& diagnostics) {
+  bool good = true;
+  each_crowded(labyrinth, crossings, [&](const Crossing& crossing, const Crossing& other) {
+    diagnostics.report(Kind::kSimLandmarksCoincide, crossing.span, {crossing.name, other.name, fmt::format("{:.2f}", distance(crossing.at, other.at))})
+        .note(Kind::kSimOtherHere, other.span);
+    good = false;
+  });
   return good;
+}
+
+/// Adds to a message about two things of different maps that these share a floor.
+void note_floor(const Labyrinth& labyrinth, std::uint32_t map, std::uint32_t other, diagnostics::Builder& message) {
+  if (map != other) message.note(Kind::kSimOneFloor, {}, {labyrinth.maps[map], labyrinth.maps[other]});
 }
 
 /// Reports two roads (or two pieces of one road) that come too near to each other. Roads that cross have been checked by cross_roads();
@@ -48,6 +62,7 @@ bool check_pair(const Labyrinth& labyrinth, const Road& a, const Road& b, const 
   const std::string other = same ? "itself" : fmt::format("`{}`", a.name);
   auto message = diagnostics.report(Kind::kSimRoadsNear, b.span, {b.name, fmt::format("{:.2f}", near_m), other, fmt::format("{:.2f}", labyrinth.size * kRoadWidth)});
   if (!same) message.note(Kind::kSimOtherHere, a.span);
+  note_floor(labyrinth, labyrinth[b.from].map, labyrinth[a.from].map, message);
   return false;
 }
 
@@ -56,7 +71,8 @@ bool check_passed(const Labyrinth& labyrinth, const Nearby& crossings, const Roa
   for (const std::uint32_t c : crossings.near(bounds_of(chain), from_landmark_m)) {
     const Crossing& crossing = labyrinth.crossings[c];
     if (nearest_along(chain, crossing.at).distance_m >= from_landmark_m) continue;
-    diagnostics.report(Kind::kSimRoadOverLandmark, road.span, {road.name, crossing.name});
+    auto message = diagnostics.report(Kind::kSimRoadOverLandmark, road.span, {road.name, crossing.name});
+    note_floor(labyrinth, labyrinth[road.from].map, crossing.map, message);
     return false;
   }
   return true;
@@ -97,6 +113,30 @@ bool check_free(const Labyrinth& labyrinth, const Road& road, const std::vector<
 
 std::string place_text(const Labyrinth& labyrinth, Spot spot) {
   return fmt::format("({:.2f}, {:.2f})", spot.x_m / labyrinth.scale, spot.y_m / labyrinth.scale);
+}
+
+bool check_maps(const Labyrinth& labyrinth, Diagnostics& diagnostics) {
+  if (labyrinth.maps.size() < 2) return true;
+  struct Crowded {
+    const Crossing* one = nullptr;
+    const Crossing* other = nullptr;
+    std::size_t more = 0;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Crowded> found;
+  const Nearby crossings(labyrinth.crossings, [](const Crossing& crossing) { return bounds_of(crossing.at); });
+  each_crowded(labyrinth, crossings, [&](const Crossing& crossing, const Crossing& other) {
+    if (crossing.map == other.map) return;
+    const auto [at, is_new] = found.try_emplace(std::minmax(crossing.map, other.map), Crowded{&crossing, &other});
+    at->second.more += is_new ? 0 : 1;
+  });
+  for (const auto& [maps, crowded] : found) {
+    const auto& [one, other, more] = crowded;
+    const std::string others = more == 0 ? "" : fmt::format(" (and {} more)", diagnostics::counted(more, "pair"));
+    diagnostics.report(Kind::kSimMapsCoincide, one->span,
+                       {labyrinth.maps[other->map], labyrinth.maps[one->map], one->name, other->name, fmt::format("{:.2f}", distance(one->at, other->at)), others})
+        .note(Kind::kSimOtherHere, other->span);
+  }
+  return found.empty();
 }
 
 bool check_room(const Labyrinth& labyrinth, const Ways& ways, const planners::Grid* background, Diagnostics& diagnostics) {

@@ -68,6 +68,7 @@ struct Crossing {
   bool painted = true;              ///< lines lead from its stop lines to its middle
   std::vector<std::string> methods; ///< those that work in it, as its memory says
   source::Span span;
+  std::uint32_t map = 0;            ///< index into Labyrinth::maps
 
   [[nodiscard]] const Arm* arm(std::string_view exit) const;
   /// From one of its arms to the one beside it that is nearest, up to pi: none is beside it.
@@ -133,6 +134,7 @@ struct Labyrinth {
   RoadId scaled_for = RoadId::kNone;   ///< the road for whose sake it is more than 1; kNone: it is 1, or was asked for
   double size = 1.0;                ///< of its robot (Body::size): all that is built here is larger by this factor, except paint, which has `widths`
   PaintWidths widths;
+  std::vector<std::string> maps;    ///< their names: all lie on this one floor
   std::vector<Crossing> crossings;
   std::unordered_map<std::string, CrossingId> by_name;   ///< the same by landmark, the first of several of one name; only looked up, never iterated
   std::vector<Road> roads;

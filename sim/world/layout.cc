@@ -158,6 +158,7 @@ std::optional<Labyrinth> read_map(const model::Model& model, double size, Diagno
   out.size = size;
   bool whole = true;
   for (const model::Map& map : model.maps) {
+    out.maps.emplace_back(map.name);
     for (const model::RowId id : map.landmarks) {
       const model::Row& row = model[id];
       const model::Point* point = model.point_in(row, "at");
@@ -170,6 +171,7 @@ std::optional<Labyrinth> read_map(const model::Model& model, double size, Diagno
       crossing.at = point != nullptr ? Spot{point->x, point->y} : Spot{};
       crossing.methods = {"mark"};
       crossing.span = row.declared;
+      crossing.map = static_cast<std::uint32_t>(out.maps.size() - 1);
       out.by_name.emplace(crossing.name, static_cast<CrossingId>(out.crossings.size()));
       out.crossings.push_back(std::move(crossing));
     }
@@ -299,6 +301,7 @@ std::optional<Labyrinth> lay_out(const model::Model& model, const LayoutOptions&
   build_walls(*labyrinth, options.background);
   find_corners(*labyrinth);
   if (!check_size(*labyrinth, diagnostics)) return std::nullopt;
+  if (!check_maps(*labyrinth, diagnostics)) return std::nullopt;   // before what follows from it: roads that cross those of the other map
   const Ways ways(*labyrinth);
   if (!cross_roads(*labyrinth, ways, diagnostics) || !check_room(*labyrinth, ways, options.background, diagnostics)) return std::nullopt;
   paint_floor(*labyrinth);

@@ -49,6 +49,8 @@ void find_corners(Labyrinth& labyrinth);
 [[nodiscard]] bool cross_roads(Labyrinth& labyrinth, const Ways& ways, diagnostics::Diagnostics& diagnostics);
 /// Makes lines, stop lines and tags.
 void paint_floor(Labyrinth& labyrinth);
+/// Reports maps whose landmarks stand in each other's way: all maps lie on one floor. One message for each pair of maps.
+[[nodiscard]] bool check_maps(const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
 /// Reports landmarks and roads that stand in each other's way, and walls that stand on roads.
 [[nodiscard]] bool check_room(const Labyrinth& labyrinth, const Ways& ways, const planners::Grid* background, diagnostics::Diagnostics& diagnostics);
 

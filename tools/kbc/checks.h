@@ -25,14 +25,14 @@
 
 namespace kb::cli {
 
-/// Refuses a command line where two of these options go to standard output: files called `-`, and flags, which print.
+/// Refuses a command line where two of these options go to standard output: files called `-`, and flags, which print. Flags print one after the other.
 inline void refuse_shared_standard_output(CLI::App& app, std::vector<CLI::Option*> outputs) {
   app.parse_complete_callback([outputs = std::move(outputs)] {
     const CLI::Option* first = nullptr;
+    const auto takes_file = [](const CLI::Option* output) { return output->get_items_expected_max() > 0; };
     for (const CLI::Option* output : outputs) {
-      const bool file = output->get_items_expected_max() > 0;
-      if (output->empty() || (file && !is_standard_output(output->as<std::string>()))) continue;
-      if (first != nullptr) throw CLI::ValidationError("standard output can take one of " + first->get_name() + " and " + output->get_name() + "; name a file for the other");
+      if (output->empty() || (takes_file(output) && !is_standard_output(output->as<std::string>()))) continue;
+      if (first != nullptr && (takes_file(first) || takes_file(output))) throw CLI::ValidationError("standard output can take one of " + first->get_name() + " and " + output->get_name() + "; name a file for the other");
       first = output;
     }
   });

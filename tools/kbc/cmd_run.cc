@@ -16,6 +16,7 @@
 #include "tools/kbc/recorded_page.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/cell_names.h"
+#include "tools/kbc/trace/conflict_tally.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_csv.h"
 #include "tools/kbc/trace/output_file.h"
@@ -31,7 +32,7 @@ struct RunOptions {
   std::string file;
   RecordedOptions recorded;
   std::string trace, html;
-  bool table = false;
+  bool table = false, conflicts = false;
   trace::TableOptions shown;
   std::string ticks;
   std::string engine = "tables";
@@ -88,6 +89,7 @@ struct Sinks {
   std::array<trace::OutputFile, kFiles> files;   // those that are not open are not written
   trace::OutputFile* trace = nullptr;
   std::optional<trace::Table> table;
+  std::optional<trace::ConflictTally> conflicts;
   std::optional<RecordedPage> page;
 
   /// Whether what is written stays hidden until all is.
@@ -104,11 +106,12 @@ bool open_sinks(const RunOptions& options, const program::Program& program, Sink
     for (const std::string& pattern : vain) diagnostics.report(Kind::kCellsNone, {}, {pattern}).suggest(trace::meant_by(program, pattern));
     if (!vain.empty()) return false;
   }
+  if (options.conflicts) sinks.conflicts.emplace(program);
   if (!options.html.empty()) {
     if (!session.open_output(sinks.files[Sinks::kPage], options.html)) return false;
     sinks.page.emplace(program, fmt::format("{} on {}", options.file, options.recorded.path()));
   }
-  if ((options.table || sinks.page) && options.trace.empty()) return true;
+  if ((options.table || options.conflicts || sinks.page) && options.trace.empty()) return true;
   const std::string path = options.trace.empty() ? "-" : options.trace;
   sinks.trace = &sinks.files[Sinks::kTrace];
   return session.open_output(*sinks.trace, path);
@@ -126,6 +129,7 @@ bool take(const program::Tick& tick, const trace::Engine& engine, const program:
     sinks.trace->write("\n");
     if (sinks.trace->failed()) return true;  // reported once, when the file is closed
   }
+  if (sinks.conflicts) sinks.conflicts->add(tick);
   if (sinks.page && !sinks.page->add(tick, engine)) {
     diagnostics.report(Kind::kPageTooLong, {}, {diagnostics::counted(RecordedPage::kMostTicks, "tick")});
     return false;
@@ -173,6 +177,7 @@ bool close_sinks(const RunOptions& options, Sinks& sinks, const Counts& counts, 
     return false;
   }
   if (sinks.table) session.print(sinks.table->print());
+  if (sinks.conflicts) session.print((sinks.table ? "\n" : "") + sinks.conflicts->print());
   return true;
 }
 
@@ -214,19 +219,21 @@ Run setup_run(CLI::App& app) {
   app.add_option("FILE", options->file, "The knowledge base, or an image of it (.kbt)")->required();
   add_recorded_options(app, options->recorded);
   auto* trace = app.add_option("--trace", options->trace,
-                 "Write the trace to this file, JSON lines; without it, --table and --html, to standard output")
+                 "Write the trace to this file, JSON lines; without it, --table, --conflicts and --html, to standard output")
       ->type_name("FILE");
   auto* html = app.add_option("--html", options->html, "Write a page that plays the run and explains each decision to this file")->type_name("FILE");
   auto* table =
       app.add_flag("--table", options->table, "Print cells by ticks: the cells that change, at ticks when one does; and the strategy that runs, if the cells do not show it");
-  app.add_option("--cells", options->shown.cells, "With --table: the cells that match, such as 'Move.* sat LM?'")->type_name("NAMES")
+  app.add_option("--cells", options->shown.cells, "With --table: of the cells that match, such as 'Move.* sat LM?', those that change; a name in full, such as Gate, is always shown")->type_name("NAMES")
       ->needs(table);
   app.add_option("--ticks", options->ticks, "With --table: these ticks, such as 7, 7-19, 7-")->type_name("TICKS")
       ->needs(table)
       ->check(is_tick_range());
   app.add_flag("--all", options->shown.all, "With --table: all cells and all ticks, changed or not")->needs(table);
+  auto* conflicts = app.add_flag("--conflicts", options->conflicts,
+                                 "Print which rules contradicted each other on which cell, on how many ticks, and on which first; the most frequent first");
   add_engine_option(app, options->engine);
-  refuse_shared_standard_output(app, {trace, table, html});
+  refuse_shared_standard_output(app, {trace, table, conflicts, html});
   return [options](Session& session) { return run(*options, session); };
 }
 

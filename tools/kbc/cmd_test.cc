@@ -31,6 +31,7 @@ struct TestOptions {
   unsigned jobs = 0;
   std::string junit;
   std::string coverage;  // text, json, html; empty: none
+  bool coverage_library = false;
   std::string coverage_out;
   std::string engine = "tables";
 
@@ -52,8 +53,10 @@ std::string counted(const std::vector<CaseResult>& results) {
   return out;
 }
 
-std::string print_coverage(const TestOptions& options, const std::vector<trace::CoverageReport>& reports) {
+std::string print_coverage(const TestOptions& options, std::vector<trace::CoverageReport> reports) {
   if (options.coverage == "json") return trace::print_json(reports);
+  if (!options.coverage_library)
+    for (trace::CoverageReport& report : reports) report = trace::without_library(std::move(report));
   if (options.coverage == "html") return trace::print_html(reports);
   std::string out;
   for (const trace::CoverageReport& report : reports) out += "\n" + trace::print_text(report);
@@ -132,8 +135,9 @@ Run setup_test(CLI::App& app) {
   app.add_flag("--update", options->update, "Write the actual trace as the expected one if they differ");
   app.add_option("--junit", options->junit, "Write the results for a build server to this file, JUnit XML; - for standard output")->type_name("FILE");
   auto* coverage =
-      app.add_flag("--coverage{text}", options->coverage, "What the cases exercise of the rules, as text; --coverage=json and --coverage=html in other forms")
+      app.add_flag("--coverage{text}", options->coverage, "What the cases exercise of your rules, as text; --coverage=json and --coverage=html in other forms")
           ->check(CLI::IsMember(std::vector<std::string>(kReportForms.begin(), kReportForms.end())));
+  app.add_flag("--coverage-library", options->coverage_library, "List what the cases exercise of the standard library as well; JSON always has it")->needs(coverage);
   app.add_option("--coverage-out", options->coverage_out, "Write the coverage to this file")->type_name("FILE")->needs(coverage);
   add_engine_option(app, options->engine);
   app.parse_complete_callback([options] {

@@ -19,17 +19,20 @@ constexpr std::array kCommands = {
             "kbc compile mission.kb --emit image             # mission.kbt, which a running robot can take\n",
             Shared::kCompiles, setup_compile},
     Command{"check", "Say what is wrong with knowledge bases",
-            "Reads, resolves and analyses, and makes nothing. Silent if all is well.",
+            "Reads, resolves and analyses, and makes nothing. Silent if all is well. Name the main files; a file that is a part of one, and uses what others declare, "
+            "is checked with it, and not by itself.",
             "kbc check mission.kb                            # errors and warnings\n"
-            "kbc check -Werror -Wno-never-read *.kb          # for a build server: warnings are errors, but for one kind\n"
+            "kbc check -Werror -Wno-never-read mission.kb    # for a build server: warnings are errors, but for one kind\n"
             "kbc check --diagnostics-format sarif mission.kb 2> mission.sarif\n",
             Shared::kCompiles, setup_check},
     Command{"run", "Feed facts to a knowledge base and see what it decides",
             "Facts are CSV: a header of the facts' names (and perhaps `t`, a time in seconds), then one row for each tick. An empty "
             "field means \"no data\" (in a file of one column `\"\"`; an empty line is no row). After a line `# empty: as before, every: 100 ms` it repeats the row before, and ticks are filled in between "
-            "rows, so a drive written by hand needs only a row for each change. Memory grows with the number of ticks only with --table.",
+            "rows, so a drive written by hand needs only a row for each change. With --readings an empty field of a sensor means \"nothing new\": the last reading stays and, if the sensor has "
+            "`stale`, grows old, also on ticks that are filled in; after `# empty: measured again, every: 100 ms` it is measured again on each tick. Memory grows with the number of ticks only with --table.",
             "kbc run mission.kb --facts drive.csv --trace drive.jsonl   # a line of JSON a tick\n"
             "kbc run mission.kb --facts drive.csv --table               # cells by ticks, for people\n"
+            "kbc run mission.kb --facts drive.csv --conflicts           # which rules contradicted each other, and how often\n"
             "kbc run mission.kb --facts - --dt 10ms < drive.csv         # from a pipe, a tick each 10 ms\n",
             Shared::kCompiles, setup_run},
     Command{"test", "Compare golden traces with what happens now",
@@ -40,7 +43,7 @@ constexpr std::array kCommands = {
             "kbc test tests                                  # all cases in a folder and below\n"
             "kbc test tests --filter 'detour*'               # those with such names\n"
             "kbc test tests --update                         # accept what happens now, then look at the difference\n"
-            "kbc test tests --coverage                       # which rules, landmarks, events were exercised\n"
+            "kbc test tests --coverage                       # which of your rules, landmarks, events were exercised\n"
             "kbc test tests --junit results.xml              # for a build server\n",
             Shared::kCompiles, setup_test},
     Command{"why", "Say why a rule, a cell or a strategy did what it did at a tick",
@@ -81,7 +84,8 @@ constexpr std::array kCommands = {
             "kbc expand mission.kb                           # everything\n"
             "kbc expand mission.kb --rule enter              # the instances of one rule\n"
             "kbc expand mission.kb --level passage           # one level\n"
-            "kbc expand mission.kb --cell Gate               # the rules that read or write a cell\n",
+            "kbc expand mission.kb --cell Gate               # the rules that write a cell, then those that read it\n"
+            "kbc expand mission.kb --cell 'Say.* Gate'       # of several cells; a group means all of its members\n",
             Shared::kCompiles, setup_expand},
     Command{"dump", "Print what the compiler holds after each phase",
             "Prints one item on each line, in an order that does not change from run to run.",

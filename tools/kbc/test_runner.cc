@@ -4,6 +4,7 @@
 #include <atomic>
 #include <utility>
 
+#include "compiler/analysis/analysis.h"
 #include "planners/crew.h"
 #include "tools/kbc/interrupts.h"
 
@@ -60,10 +61,18 @@ void TestRunner::tell_of(std::size_t number, const Tell& tell) {
   }
   running_[number].reset();
   if (number + 1 < knowledge.end) return;
-  if (knowledge.coverage)
-    coverage_.push_back(trace::summarise(cases_[number].program, knowledge.compiled->model, knowledge.compiled->program, *knowledge.coverage));
+  if (knowledge.coverage) summarise(cases_[number].program, knowledge);
   knowledge.coverage.reset();
   knowledge.compiled.reset();
+}
+
+void TestRunner::summarise(const std::string& path, const Knowledge& knowledge) {
+  const driver::Compilation& compiled = *knowledge.compiled;
+  std::vector<diagnostics::Diagnostic> unheard;
+  diagnostics::Keeping keeping(unheard);
+  diagnostics::Diagnostics messages(compiled.sources, keeping, session_.warnings());
+  const std::vector<bool> dead = analysis::find_dead_rules(compiled.model, compiled.program, messages);
+  coverage_.push_back(trace::summarise(path, {compiled.sources, compiled.model, compiled.program, dead}, *knowledge.coverage));
 }
 
 bool TestRunner::run(const Tell& tell) {

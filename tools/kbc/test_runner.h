@@ -56,6 +56,7 @@ class TestRunner {
 
   void run_case(std::size_t number);
   void tell_of(std::size_t number, const Tell& tell);
+  void summarise(const std::string& path, const Knowledge& knowledge);
 
   How how_;
   const std::vector<trace::TestCase>& cases_;

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compiler/program/cell_uses.h"
 #include "compiler/program/net_effects.h"
 #include "tests/unit/program/program_builder.h"
 #include "tests/unit/program/random_program.h"
@@ -59,12 +60,24 @@ TEST(Print, ParenthesesStandWhereTheLanguageNeedsThem) {
   EXPECT_EQ(printed(no(all({}))), "not always");
 }
 
-TEST(Print, RulesCanBeSelectedByNameLevelAndCell) {
+TEST(Print, RulesCanBeSelectedByNameAndLevel) {
   const Program program = example();
-  EXPECT_EQ(names(program, select(program, {"enter", {}, {}})), std::vector<std::string>{"enter[left]"});
-  EXPECT_EQ(select(program, {{}, "goal", {}}).size(), 2u);
-  EXPECT_EQ(names(program, select(program, {{}, {}, "Safe"})), std::vector<std::string>{"enter[left]"});
-  EXPECT_EQ(names(program, select(program, {{}, {}, "B"})), (std::vector<std::string>{"enter[left]", "abort"}));
+  EXPECT_EQ(names(program, select(program, {"enter", {}})), std::vector<std::string>{"enter[left]"});
+  EXPECT_EQ(select(program, {{}, "goal"}).size(), 2u);
+}
+
+TEST(CellUses, TellWhatIsNamedFromWhatIsOnlyReached) {
+  const Program program = example();
+  const auto uses = [&](std::string_view cell) {
+    const auto at = std::find_if(program.cells.begin(), program.cells.end(), [&](const Cell& one) { return one.name == cell; });
+    return uses_of(program, {static_cast<CellId>(at - program.cells.begin())}, select(program, {}));
+  };
+  EXPECT_EQ(names(program, uses("Safe").readers), std::vector<std::string>{"enter[left]"});
+  EXPECT_TRUE(uses("Safe").writers.empty());
+  EXPECT_EQ(names(program, uses("A").writers), std::vector<std::string>{"enter[left]"});
+  EXPECT_EQ(names(program, uses("A").resetters), std::vector<std::string>{"abort"});
+  EXPECT_EQ(names(program, uses("B").readers), std::vector<std::string>{"enter[left]"}) << "raising A also silences B, but the rule names it";
+  EXPECT_TRUE(uses("K").resetters.empty()) << "it is kept";
 }
 
 TEST(ProgramJson, HasTheDocumentedShape) {

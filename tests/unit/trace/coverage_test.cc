@@ -13,8 +13,8 @@ namespace {
 using program::testing::cell;
 using program::testing::rule;
 
-struct Covered {
-  Covered() {
+struct Sample {
+  Sample() {
     model::Map map;
     map.landmarks = {model::RowId{0}};
     model::Cell landmark;
@@ -34,15 +34,17 @@ struct Covered {
       coverage.after(interpreter.tick(program::testing::facts(program, facts), 100'000), interpreter);
     }
   }
-  [[nodiscard]] CoverageReport report() const { return summarise("sample.kb", model, program, coverage); }
+  [[nodiscard]] CoverageReport report() const { return summarise("sample.kb", {sources, model, program, dead}, coverage); }
 
   program::Program program = testing::sample_program();
+  source::Sources sources;
   model::Model model;
+  std::vector<bool> dead;
   Coverage coverage{program};
 };
 
 TEST(Coverage, counts_firings_and_true_conditions_over_all_runs) {
-  Covered covered;
+  Sample covered;
   covered.run({{}, {{"Start", 1.0f}}, {}});
   covered.run({{}, {{"Start", 1.0f}}, {{"Line", 1.0f}}, {{"Line", 1.0f}}});
   EXPECT_EQ(covered.coverage.runs(), 2u);
@@ -55,7 +57,7 @@ TEST(Coverage, counts_firings_and_true_conditions_over_all_runs) {
 }
 
 TEST(Coverage, tells_events_with_attention_from_those_without) {
-  Covered covered;
+  Sample covered;
   covered.run({{}, {{"Start", 0.6f}, {"Line", 0.6f}}, {{"Line", 0.9f}}});
   EXPECT_EQ(covered.coverage.fact(cell(covered.program, "Start")).attended, 1u);
   EXPECT_EQ(covered.coverage.fact(cell(covered.program, "Line")).attended, 0u);
@@ -64,7 +66,7 @@ TEST(Coverage, tells_events_with_attention_from_those_without) {
 }
 
 TEST(Coverage, takes_a_satellite_at_the_threshold_of_firing_as_high) {
-  Covered covered;
+  Sample covered;
   for (program::Rule& rule : covered.program.rules) {
     for (program::Write& write : rule.writes) write.value = std::min(write.value, static_cast<float>(covered.program.settings.firing));
   }
@@ -73,7 +75,7 @@ TEST(Coverage, takes_a_satellite_at_the_threshold_of_firing_as_high) {
 }
 
 TEST(Coverage, is_told_in_words) {
-  Covered covered;
+  Sample covered;
   covered.run({{}, {{"Start", 1.0f}}, {}});
   const std::string text = print_text(covered.report());
   for (const char* line :
@@ -84,8 +86,27 @@ TEST(Coverage, is_told_in_words) {
     EXPECT_NE(text.find(line), std::string::npos) << line << "\nis not in\n" << text;
 }
 
+TEST(Coverage, of_the_library_is_a_line) {
+  Sample covered;
+  covered.dead.assign(covered.program.rules.size(), false);
+  for (std::size_t i = 0; i < covered.dead.size(); ++i) covered.dead[i] = covered.program.rules[i].tmpl() == "pass";
+  covered.dead[index(rule(covered.program, "run[Stop]"))] = true;   // one of two instances
+  covered.run({{}, {{"Start", 1.0f}}, {}});
+  CoverageReport report = covered.report();
+  for (auto& one : report.templates) one.library = one.name == "obey" || one.name == "wait";
+  for (auto& strategy : report.strategies) strategy.library = strategy.name == "Stop";
+  const std::string text = print_text(without_library(report));
+  for (const char* line : {"rules: 1 of 3 fired", "`pass` at drive", "it never can", "strategies: 1 of 1 ran\n",
+                           "standard library: 1 of 2 rules fired, 0 of 1 strategies ran; `--coverage-library` lists these\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << "\nis not in\n" << text;
+  EXPECT_EQ(text.find("it never can"), text.rfind("it never can")) << text;
+  EXPECT_EQ(text.find("`wait`"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(print_json({report}));
+  EXPECT_EQ(json.at(0).at("rules").size(), report.templates.size());
+}
+
 TEST(Coverage, is_json_with_every_instance) {
-  Covered covered;
+  Sample covered;
   covered.run({{}, {{"Start", 1.0f}}});
   const auto json = nlohmann::json::parse(print_json({covered.report()}));
   const auto& rules = json.at(0).at("rules");
@@ -96,7 +117,7 @@ TEST(Coverage, is_json_with_every_instance) {
 }
 
 TEST(Coverage, is_a_page_that_asks_for_nothing_from_elsewhere) {
-  Covered covered;
+  Sample covered;
   covered.run({{}});
   auto report = covered.report();
   report.program = "a<b>&.kb";
@@ -108,7 +129,7 @@ TEST(Coverage, is_a_page_that_asks_for_nothing_from_elsewhere) {
 }
 
 TEST(Coverage, has_a_table_of_landmarks_and_one_of_other_facts) {
-  Covered covered;
+  Sample covered;
   covered.run({{}, {{"Start", 1.0f}}, {{"Line", 1.0f}}});
   const std::string page = print_html({covered.report()});
   const auto at = [&](const char* what) { return page.find(what); };

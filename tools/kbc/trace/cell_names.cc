@@ -72,6 +72,22 @@ std::vector<std::string_view> CellNames::members(std::string_view name, std::opt
   return found;
 }
 
+std::vector<CellId> find_cells(const program::Program& program, std::string_view names, std::vector<std::string>* vain) {
+  const CellNames known(program);
+  if (const CellId cell = known.find(names); cell != CellId::kNone) return {cell};   // its name may have blanks: `Near[left, far]`
+  std::vector<CellId> found;
+  for (const std::string_view one : patterns_of(names)) {
+    const CellId cell = known.find(one);
+    const std::size_t before = found.size();
+    if (cell != CellId::kNone) found.push_back(cell);
+    else for (const std::string_view member : known.members(one)) found.push_back(known.find(member));
+    if (found.size() == before && vain != nullptr) vain->emplace_back(one);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
 std::vector<RuleId> find_rules(const program::Program& program, std::string_view name) {
   const std::string plain = plain_name(name);
   std::vector<RuleId> found;
@@ -97,6 +113,12 @@ bool matches(std::string_view pattern, std::string_view name) {
   const std::vector<std::string_view> patterns = patterns_of(pattern);
   return std::any_of(patterns.begin(), patterns.end(),
                      [&](std::string_view one) { return matches_glob(one, name) || matches_glob(plain_name(one), plain); });
+}
+
+bool is_named(std::string_view pattern, std::string_view name) {
+  const std::string plain = plain_name(name);
+  const std::vector<std::string_view> patterns = patterns_of(pattern);
+  return std::any_of(patterns.begin(), patterns.end(), [&](std::string_view one) { return plain_name(one) == plain; });
 }
 
 std::vector<std::string> vain_patterns(const program::Program& program, std::string_view pattern) {

@@ -33,6 +33,10 @@ class CellNames {
   std::unordered_map<std::string, program::CellId> cells_;  // by plain name; only looked up, never iterated
 };
 
+/// The cells that `names` means, separated by blanks: each is one cell, a group, for all of its members, or a pattern (see `matches`). Ascending.
+/// Those that mean no cell are added to `vain`.
+[[nodiscard]] std::vector<program::CellId> find_cells(const program::Program& program, std::string_view names, std::vector<std::string>* vain = nullptr);
+
 /// The rules that `name` means: all instances of a template, or the one instance. Ascending; empty if there is none.
 [[nodiscard]] std::vector<program::RuleId> find_rules(const program::Program& program, std::string_view name);
 /// The name of a template or an instance that is nearest to `name`.
@@ -41,6 +45,9 @@ class CellNames {
 /// True if `pattern` (`*` any characters, `?` any one, all others themselves) matches all of `name`, in either
 /// spelling. There may be several patterns separated by blanks, of which one has to match. O(pattern * name).
 [[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
+
+/// True if one of the patterns is this name, in either spelling, without `*` and `?`.
+[[nodiscard]] bool is_named(std::string_view pattern, std::string_view name);
 
 /// The patterns in `pattern` that match no cell; all of `pattern`, if it is blank.
 [[nodiscard]] std::vector<std::string> vain_patterns(const program::Program& program, std::string_view pattern);

@@ -25,15 +25,17 @@ std::unordered_set<std::string_view> landmark_names(const model::Model& model) {
 }
 
 // Collects the instances of each rule as written. Rules are ordered by level, so the instances of one need not be neighbours.
-std::vector<CoverageReport::Template> templates_of(const Program& program, const Coverage& coverage) {
+std::vector<CoverageReport::Template> templates_of(const Program& program, const std::vector<bool>& dead, const Coverage& coverage) {
   std::vector<CoverageReport::Template> templates;
   std::unordered_map<std::string_view, std::size_t> places;
   for (std::size_t i = 0; i < program.rules.size(); ++i) {
     const program::Rule& rule = program.rules[i];
     const auto [place, is_new] = places.try_emplace(rule.tmpl(), templates.size());
     if (is_new)
-      templates.push_back({.name = std::string(rule.tmpl()), .at = program.at(rule), .level = program.levels[rule.level], .instances = {}});
+      templates.push_back({.name = std::string(rule.tmpl()), .at = program.at(rule), .level = program.levels[rule.level], .instances = {},
+                           .library = rule.standard && rule.span.known(), .dead = !dead.empty()});
     CoverageReport::Template& one = templates[place->second];
+    one.dead = one.dead && dead[i];
     const Coverage::Rule& counts = coverage.rule(static_cast<RuleId>(i));
     one.fired += counts.fired;
     one.fired_instances += counts.fired > 0 ? 1 : 0;
@@ -127,27 +129,29 @@ void Coverage::add(const Coverage& other) {
   }
 }
 
-CoverageReport summarise(std::string path, const model::Model& model, const Program& program,
-                         const Coverage& coverage) {
+CoverageReport summarise(std::string path, const Covered& covered, const Coverage& coverage) {
+  const Program& program = covered.program;
   CoverageReport report{.program = std::move(path),
                         .runs = coverage.runs(),
                         .ticks = coverage.ticks(),
-                        .templates = templates_of(program, coverage),
+                        .templates = templates_of(program, covered.dead, coverage),
                         .facts = {},
                         .satellites = {},
-                        .strategies = {}};
-  const auto landmarks = landmark_names(model);
+                        .strategies = {},
+                        .library = {}};
+  const auto landmarks = landmark_names(covered.model);
   const std::vector<bool> raisable = raisable_cells(program);
   for (std::size_t i = 0; i < program.cells.size(); ++i) {
     const program::Cell& cell = program.cells[i];
     const auto id = static_cast<CellId>(i);
+    const bool library = cell.declared.known() && covered.sources.standard(cell.declared.file);
     if (cell.kind == CellKind::kFact) {
       const Coverage::Fact& fact = coverage.fact(id);
-      report.facts.push_back({std::string(cell.name), fact.attended, fact.unattended, fact.seen, landmarks.contains(cell.name)});
+      report.facts.push_back({std::string(cell.name), fact.attended, fact.unattended, fact.seen, landmarks.contains(cell.name), library});
     } else if (cell.kind == CellKind::kSatellite) {
-      if (raisable[i]) report.satellites.push_back({std::string(cell.name), coverage.raised(id), is_high(program, cell.initial)});
+      if (raisable[i]) report.satellites.push_back({std::string(cell.name), coverage.raised(id), is_high(program, cell.initial), library});
     } else {
-      report.strategies.push_back({std::string(cell.name), coverage.strategy(id).starts, coverage.strategy(id).ticks});
+      report.strategies.push_back({std::string(cell.name), coverage.strategy(id).starts, coverage.strategy(id).ticks, library});
     }
   }
   return report;

@@ -73,20 +73,29 @@ struct CoverageReport {
     std::uint64_t fired = 0;  ///< firings of all instances
     std::size_t fired_instances = 0, held_instances = 0;
     std::vector<Instance> instances;
+    bool library = false;     ///< from the standard library
+    bool dead = false;        ///< the analysis knows that it can never fire
+    [[nodiscard]] bool covered() const { return fired > 0; }
   };
   struct Sight {
     std::string name;
     std::uint64_t attended = 0, unattended = 0, seen = 0;
     bool landmark = false;
+    bool library = false;
+    [[nodiscard]] bool covered() const { return seen > 0; }
   };
   struct Raised {
     std::string name;
     std::uint64_t raised = 0;
     bool initially = false;
+    bool library = false;
+    [[nodiscard]] bool covered() const { return raised > 0 || initially; }
   };
   struct Ran {
     std::string name;
     std::uint64_t starts = 0, ticks = 0;
+    bool library = false;
+    [[nodiscard]] bool covered() const { return ticks > 0; }
   };
   std::string program;  ///< path of the knowledge base
   std::uint64_t runs = 0, ticks = 0;
@@ -94,11 +103,21 @@ struct CoverageReport {
   std::vector<Sight> facts;
   std::vector<Raised> satellites;  ///< those that some rule raises
   std::vector<Ran> strategies;
+  std::string library;  ///< what was exercised of the standard library, in words, if `without_library` left it out
 };
 
-/// `path` is the name of the knowledge base; the landmarks are those of the model's maps.
-[[nodiscard]] CoverageReport summarise(std::string path, const model::Model& model, const program::Program& program,
-                                       const Coverage& coverage);
+/// What a report is made of. All must outlive the call.
+struct Covered {
+  const source::Sources& sources;
+  const model::Model& model;         ///< its maps say what is a landmark
+  const program::Program& program;
+  const std::vector<bool>& dead;     ///< by rule: it can never fire; empty if that is not known
+};
+
+/// `path` is the name of the knowledge base.
+[[nodiscard]] CoverageReport summarise(std::string path, const Covered& covered, const Coverage& coverage);
+/// The report without what the standard library declares, which is counted in a sentence.
+[[nodiscard]] CoverageReport without_library(CoverageReport report);
 
 /// One statement a line; things not exercised are listed by name.
 [[nodiscard]] std::string print_text(const CoverageReport& report);

@@ -60,14 +60,10 @@ std::string bar(std::string_view what, std::size_t covered, std::size_t all) {
       what, covered, all, share, share);
 }
 
-template <class Items, class Covered>
-std::size_t count(const Items& items, const Covered& covered) {
-  return static_cast<std::size_t>(std::count_if(items.begin(), items.end(), covered));
+template <class Items, class Which>
+std::size_t count(const Items& items, const Which& which) {
+  return static_cast<std::size_t>(std::count_if(items.begin(), items.end(), which));
 }
-
-bool fired(const CoverageReport::Template& one) { return one.fired > 0; }
-bool raised(const CoverageReport::Raised& one) { return one.raised > 0 || one.initially; }
-bool ran(const CoverageReport::Ran& one) { return one.ticks > 0; }
 
 void print_summary(const CoverageReport& report, std::string& out) {
   std::size_t instances = 0, fired_instances = 0;
@@ -76,22 +72,24 @@ void print_summary(const CoverageReport& report, std::string& out) {
     fired_instances += one.fired_instances;
   }
   const auto landmark = [](const auto& fact) { return fact.landmark; };
+  const auto covered = [](const auto& one) { return one.covered(); };
   const auto seen_landmark = [](const auto& fact) { return fact.landmark && fact.seen > 0; };
   out += fmt::format(
       "<p>{} runs, {} ticks.</p>\n<table><tr><th>what</th><th class=\"n\">covered</th><th "
       "class=\"n\">share</th><th></th></tr>\n",
       report.runs, report.ticks);
-  out += bar("rules that fired", count(report.templates, fired), report.templates.size());
+  out += bar("rules that fired", count(report.templates, covered), report.templates.size());
   out += bar("instances of rules that fired", fired_instances, instances);
   out += bar("landmarks seen", count(report.facts, seen_landmark), count(report.facts, landmark));
-  out += bar("satellites raised", count(report.satellites, raised), report.satellites.size());
-  out += bar("strategies that ran", count(report.strategies, ran), report.strategies.size());
+  out += bar("satellites raised", count(report.satellites, covered), report.satellites.size());
+  out += bar("strategies that ran", count(report.strategies, covered), report.strategies.size());
   out += "</table>\n";
+  if (!report.library.empty()) out += fmt::format("<p>Standard library: {}; {} lists it as well.</p>\n", report.library, code("--coverage-library"));
 }
 
 void print_instances(const CoverageReport::Template& one, std::string& out) {
   if (one.instances.size() < 2) {
-    if (one.fired == 0) out += one.held_instances == 0 ? "condition never true" : "condition was true";
+    if (one.fired == 0) out += one.dead ? "never can" : one.held_instances == 0 ? "condition never true" : "condition was true";
     return;
   }
   out += fmt::format("<details><summary>{} of {} instances fired</summary><ul class=\"i\">", one.fired_instances,
@@ -143,7 +141,7 @@ void print_outputs(const CoverageReport& report, std::string& out) {
       "class=\"n\">ticks</th></tr>\n";
   for (const auto& one : report.strategies) {
     out += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
-                       code(one.name), mark(ran(one) ? State{"yes", "✓", "yes"} : kNo), one.starts, one.ticks);
+                       code(one.name), mark(one.covered() ? State{"yes", "✓", "yes"} : kNo), one.starts, one.ticks);
   }
   out += "</table>\n<h3>Satellites</h3>\n<table><tr><th>satellite</th><th>raised</th><th class=\"n\">times</th></tr>\n";
   for (const auto& one : report.satellites) {

@@ -165,7 +165,10 @@ bool FactsReader::skips(const LineReader::Line& line) {
 
 const FactsRow* FactsReader::next() {
   if (!failed_ && left_us_ > 0) return fill();
-  if (options_.every_us) before_ = facts_;
+  if (options_.every_us) {
+    before_ = facts_;
+    if (options_.again) updates_before_ = updates_;
+  }
   while (!failed_) {
     const auto line = next_line();
     if (!line) return nullptr;
@@ -191,7 +194,7 @@ const FactsRow* FactsReader::fill() {
   ++rows_;
   if (left_us_ > 0) {
     filled_.facts = before_;
-    filled_.readings = {};
+    filled_.readings = updates_before_;   // none, but with `measured again`
   }
   return &filled_;
 }
@@ -210,7 +213,7 @@ void FactsReader::read_on_for_mistakes() {
 bool FactsReader::read_row(const LineReader::Line& line) {
   FieldCursor fields(line.text, scratch_);
   std::size_t count = 0;
-  updates_.clear();
+  if (!options_.again) updates_.clear();
   left_us_ = row_before_ == 0 ? 0 : dt_us_;
   for (; count < columns_.size() && fields.more(); ++count) {
     const Field field = fields.next();
@@ -252,7 +255,9 @@ bool FactsReader::take_reading(const Field& field, std::uint32_t reading, const 
   } else if (!update.forget && !take_number(field, update.value, line)) {
     return false;
   }
-  updates_.push_back(update);
+  const auto earlier = options_.again ? std::ranges::find(updates_, reading, &ReadingUpdate::reading) : updates_.end();
+  if (earlier != updates_.end()) *earlier = update;
+  else updates_.push_back(update);
   return true;
 }
 

@@ -15,6 +15,8 @@
 //   0.00,0.1,0.1,88,,-1                      `-`: the sensor has fallen silent
 //   0.01,nan,,89.5,LM7,0.9                   NaN, inf and numbers out of range are readings as well, bad ones
 //
+// With `# empty: measured again` an empty field of a sensor is its last reading, measured anew on this tick, and on those that `every` fills in.
+//
 // Lines that begin with `#` are comments; a blank line is no row (in a file of one column a row without data is `""`).
 #pragma once
 
@@ -127,7 +129,7 @@ class FactsReader {
   FactsOptions options_;
   Columns named_;
   std::vector<std::uint32_t> columns_;  // the fact or the reading (kReadingBit) of each column, or kTimeColumn
-  std::vector<ReadingUpdate> updates_;
+  std::vector<ReadingUpdate> updates_, updates_before_;   // of the row that was read; with `measured again` also those of rows before
   std::vector<float> facts_, before_;   // of the row that was read, and of the one before it
   std::string scratch_;  // holds a field with doubled quotes
   FactsRow row_, filled_;

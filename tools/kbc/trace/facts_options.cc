@@ -42,9 +42,10 @@ void take(std::string_view key, std::string_view value, FactsOptions& options, O
     item.wanted = "a file";
     item.good = !value.empty();
   } else if (key == "empty") {
-    options.steady = value == "as before";
-    item.wanted = "`as before` or `no data`";
-    item.good = value == "as before" || value == "no data";
+    options.again = value == "measured again";
+    options.steady = options.again || value == "as before";
+    item.wanted = "`as before`, `measured again` or `no data`";
+    item.good = *options.steady || value == "no data";
   } else if (key == "compare") {
     options.compare = trace_keys(value);
     static const std::string kWanted = fmt::format("made of `{}`", fmt::join(kTraceKeys, " "));

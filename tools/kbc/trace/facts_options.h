@@ -27,6 +27,7 @@ inline constexpr double kMaxTimeS = 1e12;
 struct FactsOptions {
   std::optional<std::uint32_t> dt_us;  ///< `dt`: how long each tick is
   std::optional<bool> steady;  ///< `empty: as before`: an empty field of a fact repeats the row before instead of meaning "no data"
+  bool again = false;          ///< `empty: measured again`: the same, and an empty field of a sensor is its last reading, measured anew on this tick
   std::optional<std::uint32_t> every_us;  ///< `every`: between two rows that lie farther apart, ticks are filled in with the facts of the first
   std::vector<std::string_view> compare;  ///< `compare`: the keys of a trace that `kbc test` compares; empty: all. Static text
   std::string program;  ///< `kb`: the knowledge base, relative to the file of facts; empty: the one beside it

@@ -105,8 +105,9 @@ bool Table::changed_at_once(std::size_t cell) const {
 
 std::vector<std::size_t> Table::shown_cells() const {
   std::vector<std::size_t> shown;
+  const bool alone = !options_.cells.empty() && columns_.size() < 2;   // what was asked for, as no other tick can show a change of it
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-    bool show = options_.all || !options_.cells.empty() || changed_at_once(cell);
+    bool show = options_.all || alone || changed_at_once(cell) || is_named(options_.cells, program_[cells_[cell]].name);
     for (std::size_t column = 1; column < columns_.size() && !show; ++column) show = at(column, cell) != at(0, cell);
     if (show) shown.push_back(cell);
   }

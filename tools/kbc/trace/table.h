@@ -24,7 +24,7 @@ struct TickRange {
 /// What a table shows. By default: the cells that change, on the first tick too, at the ticks at which one of them
 /// does.
 struct TableOptions {
-  std::string cells{};  ///< patterns (see `matches`); every cell that matches is shown. Empty: those that change
+  std::string cells{};  ///< patterns (see `matches`) of the cells to take; one that a pattern names in full is shown, changed or not. Empty: all
   std::optional<TickRange> ticks{};  ///< every tick of the range is shown. None: those at which something changes
   bool all = false;                  ///< all cells and all ticks, except those that the filters leave out
 };
