@@ -11,18 +11,21 @@ namespace {
 /// The sign that an effect was written with.
 std::string_view sign_of(float value) { return value == 1.0f ? "+" : value == -1.0f ? "-" : ""; }
 
-/// What to write where a robot was to be sent by writing a landmark or a command: the route that ends there, or that it starts.
-std::string advice(const Draft& draft, const Cell& cell) {
+/// What to write where a robot was to be sent, or called off, by writing a landmark or a command: the route that ends there, or that it starts.
+std::string advice(const Draft& draft, const Cell& cell, float value) {
+  const bool raises = value > 0.0f;
+  const std::string_view verb = raises ? "raise" : "lower", sign = raises ? "+" : "-";
   for (const RouteInfo& route : draft.routes) {
     const Row& row = draft.model[route.row];
     if (row.cell == CellId::kNone || route.legs.empty()) continue;   // it cannot be raised
     const Row* command = draft.model.row_in(row, "command");
     const Row& goal = draft.model[draft.legs[route.legs.back()].row];
     const Row* end = draft.model.row_in(goal, "to");
-    if (cell.command && command != nullptr && command->name == cell.name) return fmt::format("raise the route that it starts: `+{}`", route.name);
-    if (end != nullptr && end->name == cell.name) return fmt::format("raise the route that ends there: `+{}`", route.name);
+    if (cell.command && command != nullptr && command->name == cell.name) return fmt::format("{} the route that it starts: `{}{}`", verb, sign, route.name);
+    if (end != nullptr && end->name == cell.name) return fmt::format("{} the route that ends there: `{}{}`", verb, sign, route.name);
   }
   if (cell.command) return "for a flag of the rules declare a satellite";
+  if (!raises) return fmt::format("what rules can lower is its satellite: `-sat {}`", cell.name);
   return fmt::format("a route that ends there sends it, raised by its name, as in `+To{}`", cell.name);
 }
 
@@ -132,8 +135,8 @@ void Effects::report_unwritable(const Pattern& pattern, const Cell& cell, std::s
   };
   if (cell.kind == CellKind::kStrategy) return say(Kind::kWriteToStrategy, {text, sign});
   const Entity* declared = draft_.names.find(cell.name);
-  if (declared != nullptr && declared->kind == Entity::Kind::kLandmark) return say(Kind::kWriteToLandmark, {text, advice(draft_, cell)});
-  if (cell.command) return say(Kind::kWriteToCommand, {text, advice(draft_, cell)});
+  if (declared != nullptr && declared->kind == Entity::Kind::kLandmark) return say(Kind::kWriteToLandmark, {text, advice(draft_, cell, pattern.value)});
+  if (cell.command) return say(Kind::kWriteToCommand, {text, advice(draft_, cell, pattern.value)});
   const Entity* named = draft_.names.find(text);
   const bool plain = named != nullptr && named->kind == Entity::Kind::kFact && !draft_.standard(cell.declared);
   say(Kind::kWriteToFact, {text, plain ? fmt::format("if rules are to write it, declare `satellite {}` instead; ", text) : std::string(), sign});
