@@ -16,6 +16,22 @@ class Instants : public AtTheFirst {
   }
 };
 
+TEST_F(Instants, ASignBehindTheRobotDoesNotContradictThePositionThatItWasGiven) {
+  progress.here.clear();
+  progress.at.reset();
+  look();
+  EXPECT_EQ(init("i", "n2", 1.0), "FINISHED") << "it faces n2, and stands near n1";
+  progress.at = vehicle.take_place();
+  say("order", order("A", 0, {"n2", "n3"}));
+  begin();
+  progress.here = "L1";
+  look();
+  EXPECT_EQ(errors(), "");
+  progress.at = Whereabouts{{"L1", "W"}, 0.5, false};   // read from the other side: it faces n1
+  look();
+  EXPECT_EQ(errors(), "orderError cannotGoOn");
+}
+
 TEST_F(Instants, APauseHoldsTheRobotAndItsActions) {
   Json json = order("A", 0, {"n1", "n2"});
   json["nodes"][0]["actions"] = Json::array({action("b", "beep", "NONE"), action("p", "pick", "NONE")});

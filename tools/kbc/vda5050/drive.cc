@@ -57,7 +57,8 @@ void Vehicle::State::sense(const Progress& now, std::int64_t passed_us) {
 void Vehicle::State::check_first_sign() {
   if (in_crossing) set_down = believed = false;
   const bool expects_next = stretch.given() && stretch.task().start == Start::kBeyond;
-  if (!believed || expects_next || here.empty() || book.nodes().empty() || here == book.nodes().front().landmark) return;
+  const bool behind = came_by && came_by->outwards && here == came_by->road.landmark;   // it faces the first node from the road that begins there
+  if (!believed || expects_next || behind || here.empty() || book.nodes().empty() || here == book.nodes().front().landmark) return;
   believed = false;
   const Node& first = book.nodes().front();
   const std::string node = plant.node_at(here).value_or(here);

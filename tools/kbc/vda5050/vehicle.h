@@ -16,7 +16,8 @@
 // A vehicle that was switched on or set down by hand takes its order's word for where it is, and that it faces the first node. It may be
 // wrong in both, and its sign alone cannot tell: it is read from either side. So until it enters a crossing, the sign of any other node
 // ends the order: the robot would take that node's crossing for the first one's, and drive where nothing is released. If it knows that
-// the first node is behind it, it expects the next sign.
+// the first node is behind it, it expects the next sign. Where `initPosition` has put it on the road to the first node, the sign at the road's
+// beginning is behind it as well, as long as the side from which it is read says nothing else.
 #pragma once
 
 #include <array>
