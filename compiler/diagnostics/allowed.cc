@@ -41,6 +41,7 @@ class Upwards {
  public:
   Upwards(const source::Sources& sources, source::Span at) : sources_(sources), file_(at.file), line_(sources.line_of(at.file, at.begin)) {}
   [[nodiscard]] std::string_view line() const { return line_.text; }
+  [[nodiscard]] const source::Sources::Line& here() const { return line_; }
   /// False at the first line.
   bool up() {
     if (line_.begin == 0) return false;
@@ -63,6 +64,14 @@ bool goes_on(Upwards& lines, std::string_view flag, std::string_view code, bool&
   return false;
 }
 
+/// Goes to the line where the statement begins. False if that is far away, or there is none.
+bool to_statement(Upwards& lines) {
+  for (int i = 0; is_indented(lines.line()) || is_comment(lines.line()); ++i) {
+    if (i == kMostLines || !lines.up()) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool is_allowed(const source::Sources& sources, source::Span at, std::string_view flag, std::string_view code) {
@@ -71,12 +80,18 @@ bool is_allowed(const source::Sources& sources, source::Span at, std::string_vie
   bool allowed = allows(lines.line(), flag, code);
   const bool within = is_indented(lines.line());
   if (!goes_on(lines, flag, code, allowed) || allowed || !within) return allowed;
-  for (int i = 0; is_indented(lines.line()) || is_comment(lines.line()); ++i) {
-    if (i == kMostLines || !lines.up()) return false;
-  }
+  if (!to_statement(lines)) return false;
   allowed = allows(lines.line(), flag, code);
   static_cast<void>(goes_on(lines, flag, code, allowed));
   return allowed;
+}
+
+source::Sources::Line line_to_allow(const source::Sources& sources, source::Span at) {
+  Upwards lines(sources, at);
+  const source::Sources::Line own = lines.here();
+  if (!to_statement(lines)) return own;
+  const std::string_view head = lines.line(), code = source::trimmed(head.substr(0, head.find('#')));
+  return code.ends_with('{') ? own : lines.here();
 }
 
 }  // namespace kb::diagnostics

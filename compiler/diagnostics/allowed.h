@@ -16,4 +16,8 @@ namespace kb::diagnostics {
 /// line where its statement begins (the nearest that is not indented), or in the comment lines above that. O(bytes of at most 1,000 lines).
 [[nodiscard]] bool is_allowed(const source::Sources& sources, source::Span at, std::string_view flag, std::string_view code);
 
+/// Where a comment that allows a warning at this known place belongs: the beginning of the line above which to write it. That is the line where its
+/// statement begins; of a block in braces, its own.
+[[nodiscard]] source::Sources::Line line_to_allow(const source::Sources& sources, source::Span at);
+
 }  // namespace kb::diagnostics

@@ -68,9 +68,15 @@ def messages_while_typing(editor, folder):
                                  ('leftt', 'left', 'drive(side: leftt)')):
         editor.change(uri, wrong := MAIN + control + line + '\n')
         message = next(message for message in editor.messages_of(uri) if message['message'].endswith(f'did you mean `{meant}`?'))
-        [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message]})
+        [fix, *_] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message]})
         [edit] = fix['edit']['changes'][uri]
         expect(cut(wrong, edit['range']) == written and edit['newText'] == meant, f'`{written}` in a control line is mended to `{meant}`, as `kbc check` has it')
+    editor.change(uri, text := 'levels a > b\nfact C, D\nsatellite S output\nrule r at a\n    when C\n    then +S\nrule q at a\n    when D\n    then -S\nrule e at b when C then +S\n')
+    [message] = editor.messages_of(uri)
+    [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message]})
+    expect(fix['edit']['changes'][uri] == [{'range': {'start': {'line': 6, 'character': 0}, 'end': {'line': 6, 'character': 0}}, 'newText': '# allow: conflicting-rules\n'}], 'a warning can be allowed above its statement')
+    editor.change(uri, text.replace('rule q', '# allow: conflicting-rules\nrule q'))
+    expect(editor.messages_of(uri) == [], 'and is no longer there')
     editor.change(uri, wrong := 'import std.navigation\nmap turn_of {\n    landmark Inn at (0, 0)\n}\n')
     [message] = editor.messages_of(uri)
     expect(message['code'] == 'KB0301' and cut(wrong, message['range']) == 'turn_of', 'a name of the library is told where it is given again')

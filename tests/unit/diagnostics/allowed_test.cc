@@ -47,6 +47,21 @@ TEST(Allowed, by_name_or_code_with_a_reason) {
   EXPECT_FALSE(allowed("# we allow: never-read\nfact !Gate\n"));
 }
 
+/// The number of the line, from 1, above which a comment would allow a warning where the text has a `!`.
+std::uint32_t line_of_comment(std::string text) {
+  const std::size_t at = text.find('!');
+  text.erase(at, 1);
+  source::Sources sources;
+  const auto file = sources.add("a.kb", text);
+  return sources.locate(file, line_to_allow(sources, {file, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(at)}).begin).line;
+}
+
+TEST(Allowed, has_its_comment_above_the_statement_or_in_a_block_above_the_line) {
+  EXPECT_EQ(line_of_comment("fact A\nfact !B\n"), 2u);
+  EXPECT_EQ(line_of_comment("fact A\n\nrule a at b   # why\n    when A\n    then +!C\n"), 3u);
+  EXPECT_EQ(line_of_comment("map M {   # {\n    road A\n    road !B\n}\n"), 3u);
+}
+
 TEST(Allowed, nothing_where_there_is_no_place) { EXPECT_FALSE(is_allowed(source::Sources(), {}, "never-read", "KB1013")); }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "compiler/diagnostics/allowed.h"
 #include "compiler/diagnostics/consumers.h"
 #include "compiler/syntax/syntax.h"
 #include "tools/kbc/lsp/control_lines.h"
@@ -94,7 +95,7 @@ std::string instead_of(std::string_view written, const std::string& suggestion) 
 
 struct Better { std::string title; source::Span place; std::string text; };
 
-/// Texts that could replace what a message is about.
+/// Texts that could replace what a message is about, or say that it is meant so.
 std::vector<Better> better_texts(const Knowledge& knowledge, const diagnostics::Diagnostic& message) {
   std::vector<Better> out;
   if (!message.suggestion.empty()) {
@@ -105,6 +106,11 @@ std::vector<Better> better_texts(const Knowledge& knowledge, const diagnostics::
     if (note.kind != diagnostics::Kind::kImportBrings) continue;
     const std::string import = note.text.substr(1, note.text.rfind('`') - 1);   // the note begins with the import, in backticks
     out.push_back({"Write `" + import + "`", place_of_import(knowledge, message.span.file), import + "\n"});
+  }
+  if (const std::string_view flag = diagnostics::info(message.kind).flag; !flag.empty() && message.span.known()) {
+    const auto line = diagnostics::line_to_allow(knowledge.compiled->sources, message.span);
+    const std::string_view indent = line.text.substr(0, std::min(line.text.find_first_not_of(" \t"), line.text.size()));
+    out.push_back({fmt::format("Allow it here: `# allow: {}`", flag), {message.span.file, line.begin, line.begin}, fmt::format("{}# allow: {}\n", indent, flag)});
   }
   return out;
 }
