@@ -46,9 +46,9 @@ void diagnose(const model::Model& model, const program::Program& program, const 
   diagnose_silenced(subject);
   diagnose_taken_back(subject);
   diagnose_gaps(subject);
+  diagnose_conflicts(subject);
   diagnose_loose_timers(subject);
   diagnose_lost_to_reset(subject);
-  diagnose_conflicts(subject);
   diagnose_lazy(subject);
   diagnose_perception(subject);
   diagnose_fuzzy(program, diagnostics);

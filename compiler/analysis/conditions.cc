@@ -46,12 +46,12 @@ class ConditionQuestions {
 
   /// By rule: whether no instance of its rule as written can ever fire.
   [[nodiscard]] std::vector<bool> dead_rules() {
-    std::vector<bool> dead(program_.rules.size(), false);
+    std::vector<bool> families(subject_.instances.size(), false), dead(program_.rules.size(), false);
     find_dead_ends().for_each([&](RuleId id, bool, std::uint32_t count) {
       const std::uint32_t family = subject_.family[program::index(id)];
-      if (count < subject_.instances[family]) return;
-      for (std::size_t i = program::index(id); i < dead.size(); ++i) dead[i] = dead[i] || subject_.family[i] == family;
+      families[family] = count >= subject_.instances[family];
     });
+    for (std::size_t i = 0; i < dead.size(); ++i) dead[i] = families[subject_.family[i]];
     return dead;
   }
 

@@ -134,17 +134,30 @@ class LostToReset {
     return RuleId::kNone;
   }
 
-  /// Whether another rule ends what is demanded on the occasion of the reset: it waits for the same fact.
+  /// Whether another rule ends what is demanded on the occasion of the reset: it waits for the same fact, or for what the rule raises that resets.
   [[nodiscard]] bool ended_beside(const Demands& demands, RuleId reset) {
     const auto [known, fresh] = beside_.try_emplace(reset);
     if (fresh) {
       const std::vector<std::uint32_t> facts = awaited(program_[reset]);
-      for (const Rule& other : program_.rules) {
+      const auto beside = [&](const Rule& other) {
         const std::vector<std::uint32_t> also = facts.empty() ? facts : awaited(other);
-        if (std::ranges::find_first_of(facts, also) != facts.end()) known->second.push_back(&other);
+        return std::ranges::find_first_of(facts, also) != facts.end() || waits_for_effect(other, program_[reset]);
+      };
+      for (const Rule& other : program_.rules) {
+        if (beside(other)) known->second.push_back(&other);
       }
     }
     return std::ranges::any_of(known->second, [&](const Rule* other) { return undone(subject_, demands, *other).has_value(); });
+  }
+
+  /// Whether the rule demands anything of a cell that `reset` raises.
+  [[nodiscard]] bool waits_for_effect(const Rule& rule, const Rule& reset) {
+    const auto raised = [&](std::size_t cell) {
+      return std::ranges::any_of(reset.writes, [&](const program::Write& write) { return write.value >= firing_ && program::index(write.cell) == cell; });
+    };
+    if (reset.writes.empty()) return false;
+    const Demands demands = satisfier_.demands(rule.condition, rule.level, kMostParts);
+    return std::ranges::any_of(demands.each, [&](const Restriction& demand) { return raised(demand.variable); });
   }
 
   /// The facts of which the rule demands anything at all. A longer part, such as `no` over a large group, is about satellites.

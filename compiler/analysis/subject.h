@@ -121,9 +121,9 @@ void diagnose_already_so(const Subject& subject);   ///< already_so.cc: rules th
 void diagnose_silenced(const Subject& subject);   ///< silenced.cc: rules that lose what they wait for to a `reset`
 void diagnose_taken_back(const Subject& subject);   ///< taken_back.cc: rules that wait for a satellite which is lowered before they see it
 void diagnose_gaps(const Subject& subject);   ///< gaps.cc: timers that miss that what they time has ended and begun again
+void diagnose_conflicts(Subject& subject);   ///< conflicts.cc: can fire together and disagree
 void diagnose_loose_timers(const Subject& subject);   ///< loose_timers.cc: `A and B for T` where the time may be over before A comes
 void diagnose_lost_to_reset(const Subject& subject);   ///< lost_to_reset.cc: rules that follow a kept state and do not write again what a `reset` takes back
-void diagnose_conflicts(Subject& subject);   ///< conflicts.cc: can fire together and disagree
 void diagnose_perception(Subject& subject);  ///< perception.cc: confusable facts, facts that are never sure
 void diagnose_lazy(Subject& subject);        ///< lazy.cc: edges of lazy facts, and conditions that hold for a fact nobody has looked at
 void diagnose_fuzzy(const program::Program& program, diagnostics::Diagnostics& diagnostics);   // fuzzy.cc

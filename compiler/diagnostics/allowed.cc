@@ -7,7 +7,6 @@
 namespace kb::diagnostics {
 namespace {
 
-constexpr int kMostLines = 1000;   // of a statement: in a long map its head is not looked for
 constexpr std::string_view kWord = "allow:";
 
 /// The comment of a line, without its `#`; empty if it has none.
@@ -20,78 +19,79 @@ std::string_view comment_of(std::string_view line) {
   return {};
 }
 
-bool allows(std::string_view line, std::string_view flag, std::string_view code) {
+/// The names that a line's comment allows: the first word of each item.
+void add_names(std::string_view line, std::vector<std::string_view>& names) {
+  if (line.find(kWord) == std::string_view::npos) return;
   std::string_view rest = comment_of(line);
-  if (!rest.starts_with(kWord)) return false;
+  if (!rest.starts_with(kWord)) return;
   rest.remove_prefix(kWord.size());
-  while (true) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    const std::string_view item = source::trimmed(rest.substr(0, comma)), word = item.substr(0, item.find_first_of(" \t;:"));
-    if (word == flag || word == code) return true;
-    if (comma == rest.size()) return false;
-    rest.remove_prefix(comma + 1);
+  for (std::size_t comma = 0; comma != std::string_view::npos;) {
+    comma = rest.find(',');
+    const std::string_view item = source::trimmed(rest.substr(0, comma));
+    names.push_back(item.substr(0, item.find_first_of(" \t;:")));
+    rest.remove_prefix(comma == std::string_view::npos ? 0 : comma + 1);
   }
 }
 
 bool is_comment(std::string_view line) { return source::trimmed(line).starts_with('#'); }
-bool is_indented(std::string_view line) { return line.empty() || line[0] == ' ' || line[0] == '\t' || line[0] == '}' || line[0] == '\r'; }
-
-/// The lines of a file from one upwards.
-class Upwards {
- public:
-  Upwards(const source::Sources& sources, source::Span at) : sources_(sources), file_(at.file), line_(sources.line_of(at.file, at.begin)) {}
-  [[nodiscard]] std::string_view line() const { return line_.text; }
-  [[nodiscard]] const source::Sources::Line& here() const { return line_; }
-  /// False at the first line.
-  bool up() {
-    if (line_.begin == 0) return false;
-    line_ = sources_.line_of(file_, line_.begin - 1);
-    return true;
-  }
-
- private:
-  const source::Sources& sources_;
-  source::FileId file_;
-  source::Sources::Line line_;
-};
-
-/// Whether a comment in the lines right above allows it. Ends at the first line that is more than a comment; false if there is none.
-bool goes_on(Upwards& lines, std::string_view flag, std::string_view code, bool& allowed) {
-  while (lines.up()) {
-    if (!is_comment(lines.line())) return true;
-    allowed = allowed || allows(lines.line(), flag, code);
-  }
-  return false;
-}
-
-/// Goes to the line where the statement begins. False if that is far away, or there is none.
-bool to_statement(Upwards& lines) {
-  for (int i = 0; is_indented(lines.line()) || is_comment(lines.line()); ++i) {
-    if (i == kMostLines || !lines.up()) return false;
-  }
-  return true;
-}
+bool is_blank(std::string_view line) { return source::trimmed(line).empty(); }
+bool is_indented(std::string_view line) { return is_blank(line) || line[0] == ' ' || line[0] == '\t' || line[0] == '}'; }
 
 }  // namespace
 
-bool is_allowed(const source::Sources& sources, source::Span at, std::string_view flag, std::string_view code) {
+Allowances::Allowances(std::string_view bytes) {
+  if (bytes.find(kWord) == std::string_view::npos) return;
+  std::vector<std::string_view> above, own;   // of the comment lines right above; and of the line itself
+  for (std::size_t begin = 0; begin < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
+    const std::string_view line = bytes.substr(begin, end - begin);
+    if (is_comment(line)) {
+      add_names(line, above);
+    } else {
+      own = above;
+      add_names(line, own);
+      above.clear();
+      if (is_blank(line)) own.clear();
+      add(lines_, begin, own);
+      if (!is_indented(line)) add(statements_, begin, own);
+    }
+    begin = end + 1;
+  }
+}
+
+/// What was added last ends where this begins.
+void Allowances::add(std::vector<Range>& to, std::size_t begin, const std::vector<std::string_view>& names) {
+  if (!to.empty()) to.back().end = std::min(to.back().end, begin);
+  if (!names.empty()) to.push_back({begin, std::string_view::npos, names});
+}
+
+bool Allowances::allow(const std::vector<Range>& ranges, std::uint32_t offset, std::string_view flag, std::string_view code) {
+  const auto next = std::upper_bound(ranges.begin(), ranges.end(), offset, [](std::uint32_t at, const Range& range) { return at < range.begin; });
+  if (next == ranges.begin() || offset >= std::prev(next)->end) return false;
+  return std::any_of(std::prev(next)->names.begin(), std::prev(next)->names.end(), [&](std::string_view name) { return name == flag || name == code; });
+}
+
+bool Allowances::allow(std::uint32_t offset, std::string_view flag, std::string_view code) const {
+  return allow(lines_, offset, flag, code) || allow(statements_, offset, flag, code);
+}
+
+bool AllowancesOfFiles::allow(const source::Sources& sources, source::Span at, std::string_view flag, std::string_view code) {
   if (!at.known()) return false;
-  Upwards lines(sources, at);
-  bool allowed = allows(lines.line(), flag, code);
-  const bool within = is_indented(lines.line());
-  if (!goes_on(lines, flag, code, allowed) || allowed || !within) return allowed;
-  if (!to_statement(lines)) return false;
-  allowed = allows(lines.line(), flag, code);
-  static_cast<void>(goes_on(lines, flag, code, allowed));
-  return allowed;
+  const auto known = files_.find(at.file);
+  const auto& file = known != files_.end() ? known->second : files_.emplace(at.file, Allowances(sources.bytes(at.file))).first->second;
+  return file.allow(at.begin, flag, code);
 }
 
 source::Sources::Line line_to_allow(const source::Sources& sources, source::Span at) {
-  Upwards lines(sources, at);
-  const source::Sources::Line own = lines.here();
-  if (!to_statement(lines)) return own;
-  const std::string_view head = lines.line(), code = source::trimmed(head.substr(0, head.find('#')));
-  return code.ends_with('{') ? own : lines.here();
+  constexpr int kMostLines = 1000;
+  const source::Sources::Line own = sources.line_of(at.file, at.begin);
+  source::Sources::Line line = own;
+  for (int i = 0; is_indented(line.text) || is_comment(line.text); ++i) {
+    if (i == kMostLines || line.begin == 0) return own;
+    line = sources.line_of(at.file, line.begin - 1);
+  }
+  const std::string_view code = source::trimmed(line.text.substr(0, line.text.find('#')));
+  return code.ends_with('{') ? own : line;
 }
 
 }  // namespace kb::diagnostics

@@ -4,20 +4,52 @@
 // `# allow: conflicting-rules` says that somebody has looked at a warning and wants the text as it is; behind a comma other warnings may follow, and
 // behind a name the reason. It counts for the line in which it stands, and for the statement below it; of a message that names several places, one is
 // enough. A name that is none allows nothing, so the warning is still there.
+//
+// Where a statement begins and ends is told by indentation, since scenarios are read so as well, and files with mistakes.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string_view>
+#include <vector>
 
 #include "compiler/source/source.h"
 
 namespace kb::diagnostics {
 
-/// Whether a comment allows the warning `flag`, or `code` (`KB1011`), at this place: in its line, in the comment lines right above it, in the
-/// line where its statement begins (the nearest that is not indented), or in the comment lines above that. O(bytes of at most 1,000 lines).
-[[nodiscard]] bool is_allowed(const source::Sources& sources, source::Span at, std::string_view flag, std::string_view code);
+/// The comments of one file that allow warnings.
+class Allowances {
+ public:
+  /// O(bytes); the bytes must outlive it.
+  explicit Allowances(std::string_view bytes);
+  /// Whether a comment allows the warning `flag`, or `code` (`KB1011`), at this place: in its line, in the comment lines right above it, in the line
+  /// where its statement begins (the nearest that is not indented), or in the comment lines above that. O(log comments).
+  [[nodiscard]] bool allow(std::uint32_t offset, std::string_view flag, std::string_view code) const;
 
-/// Where a comment that allows a warning at this known place belongs: the beginning of the line above which to write it. That is the line where its
-/// statement begins; of a block in braces, its own.
+ private:
+  /// Names that are allowed from one place to another.
+  struct Range {
+    std::size_t begin = 0, end = 0;
+    std::vector<std::string_view> names;
+  };
+  void add(std::vector<Range>& to, std::size_t begin, const std::vector<std::string_view>& names);
+  [[nodiscard]] static bool allow(const std::vector<Range>& ranges, std::uint32_t offset, std::string_view flag, std::string_view code);
+
+  std::vector<Range> lines_, statements_;   // ascending, apart from each other
+};
+
+/// Those of all files, each looked at when it is first asked for.
+class AllowancesOfFiles {
+ public:
+  /// False at an unknown place.
+  [[nodiscard]] bool allow(const source::Sources& sources, source::Span at, std::string_view flag, std::string_view code);
+
+ private:
+  std::map<source::FileId, Allowances> files_;
+};
+
+/// Where a comment that allows a warning at this known place belongs: the line above which to write it. That is the line where its
+/// statement begins; of a block in braces, and of a statement that began 1,000 lines before, its own.
 [[nodiscard]] source::Sources::Line line_to_allow(const source::Sources& sources, source::Span at);
 
 }  // namespace kb::diagnostics

@@ -8,7 +8,6 @@
 #include <tuple>
 #include <vector>
 
-#include "compiler/diagnostics/allowed.h"
 #include "compiler/diagnostics/display.h"
 #include "compiler/diagnostics/look_alike.h"
 
@@ -108,7 +107,7 @@ Builder Diagnostics::report(Kind kind, source::Span at, std::initializer_list<st
 }
 
 // False if the user does not want to see the message. Turns a warning into an error if the user wants that.
-bool Diagnostics::wanted(Diagnostic& d) const {
+bool Diagnostics::wanted(Diagnostic& d) {
   if (d.severity != Severity::kWarning) return true;
   const bool library = d.span.known() && sources_.standard(d.span.file) && !options_.standard_library;
   if (options_.none || library || holds(options_.off, d.kind) || (!options_.allowed && allowed_by_source(d))) return false;
@@ -120,9 +119,9 @@ bool Diagnostics::raised(Kind warning) const {
   return holds(options_.error, warning) || (options_.all_errors && !holds(options_.never_error, warning));
 }
 
-bool Diagnostics::allowed_by_source(const Diagnostic& d) const {
+bool Diagnostics::allowed_by_source(const Diagnostic& d) {
   const std::string code = code_text(d.kind);
-  const auto allows = [&](source::Span at) { return is_allowed(sources_, at, info(d.kind).flag, code); };
+  const auto allows = [&](source::Span at) { return allowed_.allow(sources_, at, info(d.kind).flag, code); };
   return allows(d.span) || std::any_of(d.notes.begin(), d.notes.end(), [&](const Note& note) { return allows(note.span); });
 }
 

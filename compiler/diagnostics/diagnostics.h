@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compiler/diagnostics/allowed.h"
 #include "compiler/source/source.h"
 
 namespace kb::diagnostics {
@@ -171,12 +172,13 @@ class Diagnostics {
  private:
   friend class Builder;
   void finish(Diagnostic&& diagnostic);
-  bool wanted(Diagnostic& diagnostic) const;
-  [[nodiscard]] bool allowed_by_source(const Diagnostic& diagnostic) const;
+  bool wanted(Diagnostic& diagnostic);
+  [[nodiscard]] bool allowed_by_source(const Diagnostic& diagnostic);
   [[nodiscard]] bool raised(Kind warning) const;   // to an error
   const source::Sources& sources_;
   Consumer& consumer_;
   WarningOptions options_;
+  AllowancesOfFiles allowed_;
   std::function<bool(const Diagnostic&)> filter_;
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;

@@ -224,10 +224,14 @@ void declare_levels(Draft& draft) {
     if (!levels.names.empty()) lines.emplace_back(&levels, statement.span);
   });
   if (lines.empty()) return;
-  const syntax::Levels* whole = lines.front().first;
+  // Only the line with the most levels can have all levels of each other line.
+  const auto& [whole, whole_span] = *std::max_element(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first->names.size() < b.first->names.size(); });
   for (const auto& [levels, span] : lines) {
-    if (contains(levels->names, whole->names)) whole = levels;
-    else if (!contains(whole->names, levels->names)) draft.diagnostics.report(Kind::kLevelsTwice, span).note(Kind::kFirstDeclaredHere, whole->names.front().span).note(Kind::kLevelsOnce, {});
+    if (contains(whole->names, levels->names)) continue;
+    const bool library = draft.diagnostics.sources().standard(span.file);   // which cannot be wrong
+    draft.diagnostics.report(Kind::kLevelsTwice, library ? whole_span : span)
+        .note(Kind::kFirstDeclaredHere, (library ? levels : whole)->names.front().span)
+        .note(Kind::kLevelsOnce, {});
   }
   std::unordered_map<std::string_view, source::Span> known;
   for (const syntax::Name& name : whole->names) {

@@ -40,6 +40,12 @@ FileId Sources::add(std::string path, std::string bytes, bool standard, std::str
   return FileId{static_cast<std::uint32_t>(files_.size() - 1)};
 }
 
+FileId Sources::add_lines(std::string path, std::string bytes, std::uint32_t first) {
+  const FileId file = add(std::move(path), std::move(bytes));
+  files_.back()->first_line = first;
+  return file;
+}
+
 // See note [columns of long lines].
 std::uint32_t Sources::File::code_points_in(std::size_t begin, std::size_t end) const {
   const std::string_view text = bytes;
@@ -97,10 +103,10 @@ Sources::Line Sources::line_of(FileId file, std::uint32_t offset) const {
 Location Sources::locate(FileId file, std::uint32_t offset) const {
   const File& f = at(file);
   const auto next = std::upper_bound(f.line_begins.begin(), f.line_begins.end(), offset);
-  const bool bom = next == f.line_begins.begin() + 1 && f.bytes.starts_with(kByteOrderMark);
+  const bool bom = next == f.line_begins.begin() + 1 && f.first_line == 1 && f.bytes.starts_with(kByteOrderMark);
   const std::size_t end = std::min<std::size_t>(offset, f.bytes.size());
   const std::size_t begin = std::min<std::size_t>(*(next - 1) + (bom ? 3u : 0u), end);
-  return {static_cast<std::uint32_t>(next - f.line_begins.begin()), 1 + f.code_points_in(begin, end)};
+  return {f.first_line - 1 + static_cast<std::uint32_t>(next - f.line_begins.begin()), 1 + f.code_points_in(begin, end)};
 }
 
 std::uint32_t Sources::offset_of(FileId file, Location place) const {

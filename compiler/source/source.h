@@ -48,6 +48,8 @@ class Sources {
   /// contains no local folder; the default is `path`.
   /// `imported_at` is the import that it was read for; unknown for a main file.
   FileId add(std::string path, std::string bytes, bool standard = false, std::string label = {}, Span imported_at = {});
+  /// Takes some lines of a file that is not held as a whole; the first of them has that number there.
+  FileId add_lines(std::string path, std::string bytes, std::uint32_t first);
 
   [[nodiscard]] std::size_t size() const { return files_.size(); }
   [[nodiscard]] std::string_view path(FileId file) const;
@@ -79,6 +81,7 @@ class Sources {
     std::vector<std::uint32_t> code_points_before;   // by piece; see note [columns of long lines]
     bool standard = false;
     Span imported_at;
+    std::uint32_t first_line = 1;
     [[nodiscard]] std::uint32_t code_points_in(std::size_t begin, std::size_t end) const;
     [[nodiscard]] std::size_t after_code_points(std::size_t begin, std::size_t end, std::size_t count) const;
   };

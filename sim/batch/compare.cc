@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
+#include <unordered_map>
+#include <utility>
 
 namespace kb::sim::batch {
 namespace {
@@ -28,24 +29,36 @@ bool happens(const Ending& ending, std::size_t what) {
 /// One of the two results, without the column that says which side a row is on.
 struct Side {
   const Results& results;
-  std::optional<std::size_t> column;   // of Between
+  std::size_t column = kNoColumn;      // of Between
   std::string value;                   // what it must be there
 
-  [[nodiscard]] std::vector<std::string> without(const std::vector<std::string>& which) const {
-    std::vector<std::string> rest = which;
-    if (column) rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*column));
+  [[nodiscard]] std::vector<std::string> columns() const {
+    std::vector<std::string> rest = results.which;
+    if (column != kNoColumn) rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(column));
     return rest;
   }
-  [[nodiscard]] bool has(const ResultRow& row) const { return !column || row.which[*column] == value; }
+  [[nodiscard]] bool has(const ResultRow& row) const { return column == kNoColumn || field(row.which, column) == value; }
+  /// What pairs have in common.
+  [[nodiscard]] std::string key(const ResultRow& row) const {
+    std::string key = without(row.which, column);
+    if (results.noise != kNoNoise) key += fmt::format(",{}", field(row.measured, results.noise));
+    return key;
+  }
   [[nodiscard]] std::string values() const {
-    std::set<std::string> all;
-    for (const ResultRow& row : results.rows) all.insert(row.which[*column]);
+    std::set<std::string_view> all;
+    for (const ResultRow& row : results.rows) all.insert(field(row.which, column));
     return fmt::format("{}", fmt::join(all, "`, `"));
+  }
+  static std::string without(std::string_view fields, std::size_t column) {
+    if (column == kNoColumn) return std::string(fields);
+    const std::string_view cut = field(fields, column);
+    const auto begin = static_cast<std::size_t>(cut.data() - fields.data()), end = begin + cut.size();
+    return std::string(fields.substr(0, begin == 0 ? 0 : begin - 1)) + std::string(fields.substr(begin == 0 ? std::min(end + 1, fields.size()) : end));
   }
 };
 
 std::variant<Side, std::string> side_of(const Results& results, const Between& between, const std::string& value) {
-  Side side{results, std::nullopt, value};
+  Side side{results, kNoColumn, value};
   if (between.column.empty()) return side;
   const auto found = std::find(results.which.begin(), results.which.end(), between.column);
   if (found == results.which.end()) return fmt::format("there is no column `{}`; runs are told apart by `{}`", between.column, fmt::join(results.which, "`, `"));
@@ -66,30 +79,38 @@ std::vector<std::string> differences(const Results& before, const Results& after
   return differ;
 }
 
+/// Experiments whose runs of one number are on other floors.
+constexpr std::array<std::string_view, 3> kWorlds{"seed", "labyrinths", "maze"};
+
 class Pairing {
  public:
-  Pairing(Side before, Side after) : before_(std::move(before)), after_(std::move(after)) { out_.which = before_.without(before_.results.which); }
+  Pairing(Side before, Side after) : before_(std::move(before)), after_(std::move(after)) {}
 
   std::variant<Comparison, std::string> run() {
-    const std::vector<std::string> other = after_.without(after_.results.which);
+    out_.which = before_.columns();
+    out_.between = before_.column;
+    const std::vector<std::string> other = after_.columns();
     if (out_.which != other) return fmt::format("their runs are told apart by other columns, `{}` and `{}`", fmt::join(out_.which, "`, `"), fmt::join(other, "`, `"));
     out_.measured = before_.results.measured;
     if (out_.measured != after_.results.measured) return "one is of `kbc fleet`, the other of `kbc experiment`, or they are of different versions of kbc";
     out_.differ = differences(before_.results, after_.results);
+    for (const std::string_view world : kWorlds) {
+      if (std::find(out_.differ.begin(), out_.differ.end(), world) != out_.differ.end()) return fmt::format("they are experiments of another {}, so the same number means another run", world);
+    }
     find_columns();
     for (const ResultRow& row : after_.results.rows) {
-      if (!after_.has(row)) continue;
-      if (!waiting_.emplace(after_.without(row.which), &row).second) return fmt::format("a run stands twice in the new results: {}", fmt::join(row.which, ", "));
+      if (after_.has(row) && !waiting_.emplace(after_.key(row), &row).second) return twice("new", row);
     }
     for (const ResultRow& row : before_.results.rows) {
-      if (before_.has(row)) take(row);
+      if (before_.has(row) && !take(row)) return twice("old", row);
     }
-    out_.only_after = waiting_.size();
+    out_.only_after = waiting_.size() - out_.pairs.size();
     if (out_.pairs.empty()) return "they have no run in common: scenarios, settings and seeds must be the same";
     return std::move(out_);
   }
 
  private:
+  static std::string twice(std::string_view side, const ResultRow& row) { return fmt::format("a run stands twice in the {} results: {}", side, row.which); }
   void find_columns() {
     const bool experiment = std::find(out_.which.begin(), out_.which.end(), "class") != out_.which.end();
     for (std::size_t i = 0; i < out_.which.size(); ++i) {
@@ -97,26 +118,28 @@ class Pairing {
       const bool of_one_run = std::find(kOfOneRun.begin(), kOfOneRun.end(), name) != kOfOneRun.end() || (experiment && name == "scenario");
       if (of_one_run) continue;
       out_.columns.push_back(name);
-      named_by_.push_back(i);
+      named_by_.push_back(before_.column <= i ? i + 1 : i);
     }
   }
-  void take(const ResultRow& old) {
-    std::vector<std::string> which = before_.without(old.which);
-    const auto found = waiting_.find(which);
-    if (found == waiting_.end()) return void(++out_.only_before);
+  /// False if it was taken before.
+  bool take(const ResultRow& old) {
+    const auto found = waiting_.find(before_.key(old));
+    if (found == waiting_.end()) return ++out_.only_before, true;
+    const ResultRow* const now = std::exchange(found->second, nullptr);
+    if (now == nullptr) return false;
     std::vector<std::string> values;
-    for (const std::size_t i : named_by_) values.push_back(which[i]);
+    for (const std::size_t i : named_by_) values.emplace_back(field(old.which, i));
     const auto [row, is_new] = numbers_.emplace(values, out_.rows.size());
     if (is_new) out_.rows.push_back({std::move(values), 0, {}, {}, {}});
-    out_.pairs.push_back({std::move(which), &old, found->second, row->second});
+    out_.pairs.push_back({&old, now, row->second});
     out_.rows[row->second].add(out_.pairs.back());
-    waiting_.erase(found);
+    return true;
   }
 
   Side before_, after_;
   Comparison out_;
-  std::vector<std::size_t> named_by_;   // the columns that name a row of the table
-  std::map<std::vector<std::string>, const ResultRow*> waiting_;
+  std::vector<std::size_t> named_by_;   // the columns of the old results that name a row of the table
+  std::unordered_map<std::string, const ResultRow*> waiting_;   // new runs; null: it has its partner
   std::map<std::vector<std::string>, std::size_t> numbers_;
 };
 
@@ -144,6 +167,8 @@ std::variant<Comparison, std::string> compare(const Results& before, const Resul
   }
   return Pairing(std::get<Side>(std::move(old)), std::get<Side>(std::move(now))).run();
 }
+
+std::string which_of(const Comparison& comparison, const Pair& pair) { return Side::without(pair.before->which, comparison.between); }
 
 double chance_of(std::size_t only_before, std::size_t only_after) {
   const auto n = static_cast<double>(only_before + only_after), fewer = static_cast<double>(std::min(only_before, only_after));

@@ -40,8 +40,11 @@ std::string ending_text(const Ending& ending) {
   return ending.collisions > 0 ? text + fmt::format(", {} collision{}", ending.collisions, ending.collisions == 1 ? "" : "s") : text;
 }
 
-std::string list_row(const Pair& pair) {
-  return fmt::format("| {} | {} | {} |\n", fmt::join(pair.which, " | "), ending_text(pair.before->ending), ending_text(pair.after->ending));
+std::string list_row(const Comparison& comparison, const Pair& pair) {
+  const std::string which = which_of(comparison, pair);
+  std::string cells = "|";
+  for (std::size_t i = 0; i < comparison.which.size(); ++i) cells += fmt::format(" {} |", field(which, i));
+  return fmt::format("{} {} | {} |\n", cells, ending_text(pair.before->ending), ending_text(pair.after->ending));
 }
 
 /// A list of runs that have something in common.
@@ -62,7 +65,7 @@ std::string list(const Comparison& comparison, const Kind& kind, std::size_t mos
   std::string rows;
   std::size_t count = 0;
   for (const Pair& pair : comparison.pairs) {
-    if (kind.is(pair.before->ending, pair.after->ending) && ++count <= most) rows += list_row(pair);
+    if (kind.is(pair.before->ending, pair.after->ending) && ++count <= most) rows += list_row(comparison, pair);
   }
   if (count == 0) return {};
   std::string out = fmt::format("\nRuns that {}: {}\n\n| {} | OLD | NEW |\n|", kind.title, count, fmt::join(comparison.which, " | "));
@@ -106,7 +109,7 @@ std::string print_pairs(const Comparison& comparison) {
   }
   out += "\n";
   for (const Pair& pair : comparison.pairs) {
-    out += fmt::format("{},{},{}\n", fmt::join(pair.which, ","), fmt::join(pair.before->measured, ","), fmt::join(pair.after->measured, ","));
+    out += fmt::format("{},{},{}\n", which_of(comparison, pair), pair.before->measured, pair.after->measured);
   }
   return out;
 }

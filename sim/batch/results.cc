@@ -67,7 +67,10 @@ class Reader {
     at_ = end + 1;
     return true;
   }
-  void refuse(std::string what) { fault_ = {begin_, begin_ + line_.size(), std::move(what)}; }
+  void refuse(std::string what) {
+    if (!fault_.what.empty()) return;
+    fault_ = {begin_, begin_ + line_.size(), std::move(what)};
+  }
 
   std::optional<std::size_t> column(const std::vector<std::string_view>& names, std::string_view name) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -79,7 +82,7 @@ class Reader {
   void take_header() {
     const std::vector<std::string_view> names = fields_of(line_), measures = fields_of(kMeasures);
     const auto outcome = column(names, "outcome"), reports = column(names, "reports"), time = column(names, "time_s"), length = column(names, "length_m");
-    if (!outcome || !reports || !time || !length) return;
+    if (!outcome || !reports || !time || !length) return;   // the first that is missing was told
     const auto found = std::search(names.begin(), names.end(), measures.begin(), measures.end());
     if (found == names.end()) return refuse(fmt::format("there are no columns `{}`", kMeasures));
     columns_ = names.size();
@@ -87,6 +90,8 @@ class Reader {
     const auto cut = names.begin() + static_cast<std::ptrdiff_t>(*outcome);
     results_.which.assign(names.begin(), cut);
     results_.measured.assign(cut, names.end());
+    const auto noise = std::find(cut, names.end(), "noise");
+    if (noise != names.end()) results_.noise = static_cast<std::size_t>(noise - cut);
   }
 
   void take_row() {
@@ -101,9 +106,9 @@ class Reader {
     if (!good) return refuse("this is no row of a run");
     row.ending.outcome = fields[places_.outcome];
     row.ending.reports = fields[places_.reports];
-    const auto cut = fields.begin() + static_cast<std::ptrdiff_t>(results_.which.size());
-    row.which.assign(fields.begin(), cut);
-    row.measured.assign(cut, fields.end());
+    const auto cut = static_cast<std::size_t>(fields[places_.outcome].data() - line_.data());
+    row.which = line_.substr(0, cut == 0 ? 0 : cut - 1);
+    row.measured = line_.substr(cut);
     results_.rows.push_back(std::move(row));
   }
 
@@ -115,6 +120,11 @@ class Reader {
 };
 
 }  // namespace
+
+std::string_view field(std::string_view fields, std::size_t number) {
+  for (; number > 0; --number) fields.remove_prefix(std::min(fields.find(','), fields.size() - 1) + 1);
+  return fields.substr(0, fields.find(','));
+}
 
 std::variant<Results, ResultsFault> read_results(std::string_view text) { return Reader(text).read(); }
 

@@ -12,16 +12,18 @@
 
 namespace kb::sim::batch {
 
+inline constexpr std::size_t kNoNoise = static_cast<std::size_t>(-1);
+
 struct ResultRow {
-  std::vector<std::string> which;      ///< of Results::which
-  std::vector<std::string> measured;   ///< of Results::measured, as they stand in the file
+  std::string_view which, measured;    ///< of Results::which and Results::measured, with their commas
   Ending ending;
 };
 
 /// A file of results.
 struct Results {
   std::vector<std::pair<std::string, std::string>> made_of;   ///< what its first comment says: `knowledge base` and its number
-  std::vector<std::string> which;      ///< columns that say which run a row is: scenario, seed ...
+  std::vector<std::string> which;      ///< columns that say which run a row is: scenario, seed ... those before `outcome`
+  std::size_t noise = kNoNoise;        ///< if the column `noise` is not one of them: its place among `measured`
   std::vector<std::string> measured;   ///< the columns from `outcome` on
   std::vector<ResultRow> rows;
 };
@@ -32,7 +34,10 @@ struct ResultsFault {
   std::string what;
 };
 
-/// O(bytes).
+/// A field of `which` or `measured`.
+[[nodiscard]] std::string_view field(std::string_view fields, std::size_t number);
+
+/// The text must outlive the results. O(bytes).
 [[nodiscard]] std::variant<Results, ResultsFault> read_results(std::string_view text);
 
 }  // namespace kb::sim::batch

@@ -12,6 +12,7 @@
 #include "compiler/diagnostics/display.h"
 #include "sim/batch/compare.h"
 #include "tools/kbc/checks.h"
+#include "tools/kbc/named_files.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/stream.h"
 
@@ -27,25 +28,33 @@ struct CompareOptions {
   std::uint64_t most = 10;
 };
 
-/// The results of a folder, or of its `runs.csv`. Nothing (reported) if there are none.
-std::optional<sim::batch::Results> read_side(const std::string& named, Session& session) {
+/// Results, and the bytes that they are views of.
+struct Loaded {
+  std::string bytes;
+  sim::batch::Results results;
+};
+
+/// The results of a folder, or of its `runs.csv`. Null (reported) if there are none.
+std::unique_ptr<Loaded> read_side(const std::string& named, Session& session) {
   std::error_code ignored;
   const std::string path = std::filesystem::is_directory(named, ignored) ? (std::filesystem::path(named) / "runs.csv").string() : named;
   std::string error;
-  const auto bytes = trace::read_all(path, kMostResultBytes, error);
+  auto bytes = trace::read_all(path, kMostResultBytes, error);
   if (!bytes) {
     session.report(Kind::kCannotRead, {path, error.empty() ? "is too large" : error});
-    return std::nullopt;
+    return nullptr;
   }
+  auto loaded = std::make_unique<Loaded>(Loaded{std::move(*bytes), {}});
   session.note_input(path);
-  auto read = sim::batch::read_results(*bytes);
+  auto read = sim::batch::read_results(loaded->bytes);
   if (const auto* fault = std::get_if<sim::batch::ResultsFault>(&read)) {
     source::Sources sources;
-    const auto file = sources.add(path, *bytes);
+    const auto file = sources.add(path, loaded->bytes);
     session.diagnostics(sources).report(Kind::kCompareNoResults, {file, static_cast<std::uint32_t>(fault->begin), static_cast<std::uint32_t>(fault->end)}, {fault->what});
-    return std::nullopt;
+    return nullptr;
   }
-  return std::get<sim::batch::Results>(std::move(read));
+  loaded->results = std::get<sim::batch::Results>(std::move(read));
+  return loaded;
 }
 
 /// `method=mts,quick`. Nothing (reported) if it is written otherwise.
@@ -88,9 +97,9 @@ int run(const CompareOptions& options, Session& session) {
     return kErrors;
   }
   const auto before = read_side(options.before, session);
-  const auto other = options.after.empty() ? std::nullopt : read_side(options.after, session);
-  if (!before || (!options.after.empty() && !other)) return kErrors;
-  const auto compared = sim::batch::compare(*before, other ? *other : *before, *between);
+  const auto other = options.after.empty() ? nullptr : read_side(options.after, session);
+  if (before == nullptr || (!options.after.empty() && other == nullptr)) return kErrors;
+  const auto compared = sim::batch::compare(before->results, (other ? other : before)->results, *between);
   if (const auto* fault = std::get_if<std::string>(&compared)) {
     session.report(Kind::kCompareApart, {*fault});
     return kErrors;
@@ -111,9 +120,14 @@ Run setup_compare(CLI::App& app) {
   app.add_option("OLD", options->before, "Results of `kbc fleet` or `kbc experiment`: the folder, or its runs.csv")->required();
   app.add_option("NEW", options->after, "The other ones; may be missing with --between");
   app.add_option("--between", options->between, "OLD are the runs with the first value in this column, NEW those with the second; both may be of one folder")->type_name("COLUMN=OLD,NEW");
-  app.add_option("--csv", options->csv, "Write a row for each pair of runs")->type_name("FILE");
+  app.add_option("--csv", options->csv, "Write a row for each pair of runs")->type_name("FILE")->check([](const std::string& path) {
+    return is_standard_output(path) ? std::string("standard output is for the table; name a file") : std::string();
+  });
   app.add_option("--most", options->most, "The most runs to list of each kind; the others are counted")->type_name("N")->transform(is_whole_number("count"))->capture_default_str();
   app.add_option("--expect", options->expect, "Fail unless each row of the table meets this: lost=0,collisions=0")->type_name("DEMAND,...");
+  app.parse_complete_callback([options] {
+    if (options->before == "-" && options->after == "-") throw CLI::ValidationError("NEW", "standard input is read once");
+  });
   return [options](Session& session) { return run(*options, session); };
 }
 

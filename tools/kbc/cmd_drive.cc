@@ -3,6 +3,7 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <memory>
@@ -58,7 +59,11 @@ class Conversation {
       if (came == Came::kFailed) session_.report(Kind::kCannotRead, {"standard input", source::reason(channel_.error())});
       if (came == Came::kEnd || came == Came::kFailed) return session_.exit_code();
       ++number_;
-      if (came == Came::kLine && line.find_first_not_of(" \t\r") == std::string::npos) continue;   // nobody has said anything
+      if (came == Came::kLine && line.find_first_not_of(" \t\r") == std::string::npos) {   // nobody has said anything
+        if (orders_ != nullptr) follow_orders(false);
+        log_.heard(line, {}, false);
+        continue;
+      }
       const std::string answer = exchange_.answer(line, number_);
       for (const auto* said : {&exchange_.mistake(), &exchange_.warning()}) {
         if (*said) tell(**said, line);
@@ -67,7 +72,7 @@ class Conversation {
       if (went == Came::kStopped) return interrupted();
       if (went == Came::kFailed) session_.report(Kind::kCannotWrite, {"standard output", source::reason(channel_.error())});
       if (went != Came::kLine) return session_.exit_code();
-      if (orders_ != nullptr) follow_orders();
+      if (orders_ != nullptr) follow_orders(exchange_.line().has_value());
       log_.heard(line, answer, !exchange_.mistake());
     }
   }
@@ -78,14 +83,13 @@ class Conversation {
   /// How long it waits for the robot before it looks after the master.
   [[nodiscard]] int waits_ms() const { return orders_ != nullptr && orders_->live() ? kListens_ms : wire::LineChannel::kForEver; }
   /// How long nothing has come that could be understood: by this machine's clock, or, with orders from a file, which give the same each time, as if each
-  /// other line were a period of its own.
+  /// other line came as long after the one before as the last that was understood.
   [[nodiscard]] std::int64_t unheard_us() const {
-    if (!orders_->live()) return unheard_ * sim::kControlUs;
+    if (!orders_->live()) return unheard_ * std::max(sim::kControlUs, static_cast<std::int64_t>(static_cast<double>(exchange_.period_s()) * 1e6));
     return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - heard_at_).count();
   }
   /// A robot whose lines are refused stands, like one that is silent.
-  void follow_orders() {
-    const bool heard = exchange_.line().has_value();
+  void follow_orders(bool heard) {
     if (heard) heard_at_ = std::chrono::steady_clock::now();
     unheard_ = heard ? 0 : unheard_ + 1;
     if (heard) orders_->step();

@@ -6,6 +6,9 @@
 # RUN: cd what_a_change_did_to_each_run.d && sed 's/,robot.speed,/,robot.turn,/' before/runs.csv > %t/other.csv && kbc compare before %t/other.csv
 # RUN: cd what_a_change_did_to_each_run.d && sed 's/^crate,/box,/;s/^closed,/shut,/' before/runs.csv > %t/apart.csv && kbc compare before %t/apart.csv
 # RUN: cd what_a_change_did_to_each_run.d && sed '$p' after/runs.csv > %t/twice.csv && kbc compare before %t/twice.csv
+# RUN: cd what_a_change_did_to_each_run.d && sed '$p' after/runs.csv > %t/twice.csv && kbc compare %t/twice.csv after
+# RUN: kbc compare - -
+# RUN: kbc compare what_a_change_did_to_each_run.d/before what_a_change_did_to_each_run.d/after --csv -
 # RUN: kbc compare what_a_change_did_to_each_run.d/before
 # RUN: kbc compare what_a_change_did_to_each_run.d/before nowhere
 # RUN: kbc compare what_a_change_did_to_each_run.d/before --between 0.4,0.6

@@ -13,7 +13,7 @@ bool allowed(std::string text) {
   source::Sources sources;
   const auto file = sources.add("a.kb", text);
   const auto begin = static_cast<std::uint32_t>(at);
-  return is_allowed(sources, {file, begin, begin + 1}, "never-read", "KB1013");
+  return AllowancesOfFiles().allow(sources, {file, begin, begin + 1}, "never-read", "KB1013");
 }
 
 TEST(Allowed, in_its_line_and_above_it) {
@@ -32,6 +32,11 @@ TEST(Allowed, above_the_statement_of_its_line) {
   EXPECT_TRUE(allowed("# allow: never-read\nmap M {\n    road A\n\n    road !B\n}\n"));
   EXPECT_TRUE(allowed("rule a at b\n    when C\n    # allow: never-read\n    then +!D\n"));
   EXPECT_FALSE(allowed("rule a at b\n    # allow: never-read\n    when C\n    then +!D\n")) << "it is for the line below it";
+  EXPECT_TRUE(allowed("# allow: never-read\nfact A,\n" + [] {
+    std::string names;
+    for (int i = 0; i < 5000; ++i) names += "    B,\n";
+    return names;
+  }() + "    !C\n")) << "however long the statement is";
   EXPECT_FALSE(allowed("map M {\n    road A   # allow: never-read\n    road !B\n}\n"));
   EXPECT_FALSE(allowed("# allow: never-read\nfact C\nrule a at b\n    then +!D\n"));
 }
@@ -62,7 +67,7 @@ TEST(Allowed, has_its_comment_above_the_statement_or_in_a_block_above_the_line) 
   EXPECT_EQ(line_of_comment("map M {   # {\n    road A\n    road !B\n}\n"), 3u);
 }
 
-TEST(Allowed, nothing_where_there_is_no_place) { EXPECT_FALSE(is_allowed(source::Sources(), {}, "never-read", "KB1013")); }
+TEST(Allowed, nothing_where_there_is_no_place) { EXPECT_FALSE(AllowancesOfFiles().allow(source::Sources(), {}, "never-read", "KB1013")); }
 
 }  // namespace
 }  // namespace kb::diagnostics

@@ -123,6 +123,9 @@ TEST(Settings, WhoeverNamesAllLevelsInsertsMore) {
   const Known inner("import \"all.kb\"\nlevels a > c > d\nlevels b > d\n", {{"all.kb", "levels a > b > c > d\n"}});
   EXPECT_EQ(inner.said(), "");
   EXPECT_EQ(inner.model().levels, all);
+  const Known both("import \"b.kb\"\nimport \"c.kb\"\nlevels a > b > c > d\n", {{"b.kb", "levels a > b > d\n"}, {"c.kb", "levels a > c > d\n"}});
+  EXPECT_EQ(both.said(), "") << "whoever imports two files that insert levels says the order of all";
+  EXPECT_EQ(both.model().levels, all);
   EXPECT_TRUE(Known("levels a > c\nlevels a > b > c\nlevels a > d > c\n").said_only(Kind::kLevelsTwice)) << "each inserts another";
   EXPECT_TRUE(Known("levels a > c\nlevels c > b > a\n").said_only(Kind::kLevelsTwice));
   EXPECT_TRUE(Known("levels a > c\nlevels a > c > d\n").said_only(Kind::kLevelsTwice)) << "the control level is one";

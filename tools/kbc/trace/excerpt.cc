@@ -1,6 +1,7 @@
 #include "tools/kbc/trace/excerpt.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "compiler/source/encoding.h"
 
@@ -21,15 +22,13 @@ std::string_view shown(std::string_view line, std::size_t end) {
 
 source::Span excerpt(source::Sources& sources, const std::string& path, const LineReader::Line& line,
                      std::uint32_t begin, std::uint32_t end) {
-  const auto padding = static_cast<std::uint32_t>(line.number - 1);
-  const auto span = [&](source::FileId file) { return source::Span{file, padding + begin, padding + end}; };
-  std::string bytes(padding, '\n');
-  bytes += shown(line.text, end);
+  const auto number = static_cast<std::uint32_t>(std::min<std::uint64_t>(line.number, UINT32_MAX));
+  const std::string_view bytes = shown(line.text, end);
   if (sources.size() > 0) {
     const auto last = static_cast<source::FileId>(sources.size() - 1);
-    if (sources.path(last) == path && sources.bytes(last) == bytes) return span(last);
+    if (sources.path(last) == path && sources.bytes(last) == bytes && sources.locate(last, 0).line == number) return {last, begin, end};
   }
-  return span(sources.add(path, std::move(bytes)));
+  return {sources.add_lines(path, std::string(bytes), number), begin, end};
 }
 
 }  // namespace kb::trace
