@@ -117,7 +117,7 @@ class Yard {
     for (const HostAction& action : vehicle_.host_actions()) {
       if ((byte(3) & 1) != 0) words.push_back({action.id, kWords[(byte(3) >> 1) & 3], ""});
     }
-    vehicle_.observe(progress, condition, words, us_);
+    vehicle_.observe(progress, condition, words, {us_, us_});
   }
 
   void check() {
