@@ -16,16 +16,6 @@ namespace {
 /// Columns that tell one run from others that are counted with it.
 constexpr std::array<std::string_view, 6> kOfOneRun{"seed", "robot", "noise", "labyrinth", "route", "kinds"};
 
-bool happens(const Ending& ending, std::size_t what) {
-  switch (what) {
-    case 0: return ending.outcome == kOutcomes[0];
-    case 1: return ending.collisions > 0;
-    case 2: return ending.bans_broken > 0;
-    case 3: return ending.lost_unaware;
-    default: return ending.standing_contacts > 0;
-  }
-}
-
 /// One of the two results, without the column that says which side a row is on.
 struct Side {
   const Results& results;
@@ -149,13 +139,13 @@ void ComparedRow::add(const Pair& pair) {
   const Ending &old = pair.before->ending, &now = pair.after->ending;
   ++pairs;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const bool then = happens(old, i), today = happens(now, i);
+    const bool then = kHappenings[i].is(old), today = kHappenings[i].is(now);
     counts[i].before += then ? 1 : 0;
     counts[i].after += today ? 1 : 0;
     counts[i].only_before += then && !today ? 1 : 0;
     counts[i].only_after += today && !then ? 1 : 0;
   }
-  if (!happens(old, 0) || !happens(now, 0)) return;
+  if (!arrives(old) || !arrives(now)) return;
   if (old.time_s > 0.0) times.push_back(now.time_s / old.time_s);
   if (old.length_m > 0.0) lengths.push_back(now.length_m / old.length_m);
 }
@@ -186,7 +176,7 @@ std::vector<Unmet> unmet(const std::vector<Demand>& demands, const Comparison& c
   for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
     const ComparedRow& row = comparison.rows[i];
     for (const Demand& demand : demands) {
-      const bool gained = demand.kind == kHappenings;
+      const bool gained = demand.kind == kHappenings.size();
       const ComparedRow::Count& count = row.counts[gained ? 0 : demand.kind];
       const std::size_t found = demand.kind == 0 ? count.only_before : count.only_after;
       if (!holds(demand, found, row.pairs)) all.push_back(unmet_by(demand, i, found, row.pairs));

@@ -25,10 +25,9 @@ struct Between {
   std::string column, before, after;   ///< no column: each of the two results is one side
 };
 
-/// What is counted of runs: they arrive, collide, break bans, are lost without knowing it, are touched while they stand.
-inline constexpr std::size_t kHappenings = 5;
-/// What can be demanded of pairs, in that order: `lost` arrive in OLD only, `collisions` and the others happen in NEW only; `gained` arrive in NEW only.
-inline constexpr std::array<std::string_view, 6> kPairDemands{"lost", "collisions", "bans_broken", "lost_unaware", "standing_contacts", "gained"};
+/// What can be demanded of pairs, in the order of kHappenings: `lost` arrive in OLD only, `collisions` and the others happen in NEW only; `gained`
+/// arrive in NEW only.
+inline constexpr std::array<std::string_view, kHappenings.size() + 1> kPairDemands{"lost", kHappenings[1].name, kHappenings[2].name, kHappenings[3].name, kHappenings[4].name, "gained"};
 
 struct Pair {
   const ResultRow* before = nullptr;
@@ -42,7 +41,7 @@ struct ComparedRow {
 
   std::vector<std::string> values;             ///< of Comparison::columns
   std::size_t pairs = 0;
-  std::array<Count, kHappenings> counts;
+  std::array<Count, kHappenings.size()> counts;   ///< of kHappenings
   std::vector<double> times, lengths;          ///< of pairs in which both arrive: new divided by old
 
   void add(const Pair& pair);

@@ -36,8 +36,8 @@ ComparedRow together(const Comparison& comparison) {
 
 std::string ending_text(const Ending& ending) {
   std::string text = ending.outcome + (ending.reports.empty() ? "" : ": " + ending.reports);
-  if (ending.outcome == kOutcomes[0]) text += fmt::format(", {:.1f} s", ending.time_s);
-  return ending.collisions > 0 ? text + fmt::format(", {} collision{}", ending.collisions, ending.collisions == 1 ? "" : "s") : text;
+  if (arrives(ending)) text += fmt::format(", {:.1f} s", ending.time_s);
+  return collides(ending) ? text + fmt::format(", {} collision{}", ending.collisions, ending.collisions == 1 ? "" : "s") : text;
 }
 
 std::string list_row(const Comparison& comparison, const Pair& pair) {
@@ -47,25 +47,25 @@ std::string list_row(const Comparison& comparison, const Pair& pair) {
   return fmt::format("{} {} | {} |\n", cells, ending_text(pair.before->ending), ending_text(pair.after->ending));
 }
 
-/// A list of runs that have something in common.
+/// A list of runs of which something holds on one side only.
 struct Kind {
   std::string_view title;
-  bool (*is)(const Ending& before, const Ending& after);
+  std::size_t what;   ///< of kHappenings
+  bool in_new;
+
+  [[nodiscard]] bool has(const Pair& pair) const {
+    const auto is = kHappenings[what].is;
+    return is(pair.after->ending) == in_new && is(pair.before->ending) != in_new;
+  }
 };
-bool arrives(const Ending& ending) { return ending.outcome == kOutcomes[0]; }
-constexpr std::array kKinds{
-    Kind{"arrive in OLD only", [](const Ending& before, const Ending& after) { return arrives(before) && !arrives(after); }},
-    Kind{"arrive in NEW only", [](const Ending& before, const Ending& after) { return arrives(after) && !arrives(before); }},
-    Kind{"collide in NEW only", [](const Ending& before, const Ending& after) { return after.collisions > 0 && before.collisions == 0; }},
-    Kind{"break bans in NEW only", [](const Ending& before, const Ending& after) { return after.bans_broken > 0 && before.bans_broken == 0; }},
-    Kind{"are lost without knowing it in NEW only", [](const Ending& before, const Ending& after) { return after.lost_unaware && !before.lost_unaware; }},
-};
+constexpr std::array kKinds{Kind{"arrive in OLD only", 0, false}, Kind{"arrive in NEW only", 0, true}, Kind{"collide in NEW only", 1, true},
+                            Kind{"break bans in NEW only", 2, true}, Kind{"are lost without knowing it in NEW only", 3, true}};
 
 std::string list(const Comparison& comparison, const Kind& kind, std::size_t most) {
   std::string rows;
   std::size_t count = 0;
   for (const Pair& pair : comparison.pairs) {
-    if (kind.is(pair.before->ending, pair.after->ending) && ++count <= most) rows += list_row(comparison, pair);
+    if (kind.has(pair) && ++count <= most) rows += list_row(comparison, pair);
   }
   if (count == 0) return {};
   std::string out = fmt::format("\nRuns that {}: {}\n\n| {} | OLD | NEW |\n|", kind.title, count, fmt::join(comparison.which, " | "));
@@ -89,7 +89,7 @@ std::string summarise(const Comparison& comparison, std::size_t most) {
   std::string out = fmt::format("| {} | runs | arrive in OLD | in NEW | in OLD only | in NEW only | p | time, NEW / OLD: 5 % / median / 95 % | length, NEW / OLD | with collisions: "
                                 "OLD, NEW | bans broken | lost without knowing it | touched while they stand |\n|", fmt::join(comparison.columns, " | "));
   for (std::size_t i = 0; i < comparison.columns.size(); ++i) out += "---|";
-  for (std::size_t i = 0; i < 8 + kHappenings - 1; ++i) out += "---:|";
+  for (std::size_t i = 0; i < 8 + kHappenings.size() - 1; ++i) out += "---:|";
   out += "\n";
   for (const ComparedRow& row : comparison.rows) out += table_row(fmt::format("{}", fmt::join(row.values, " | ")), row);
   if (comparison.rows.size() > 1) {

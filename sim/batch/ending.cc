@@ -52,14 +52,14 @@ bool is_possible(const Ending& ending, double limit_s, std::size_t events) {
          (ending.closest_m == kNothingNear || ending.closest_m >= 0.0) && ending.missed <= events && within(ending.last_moved_s, ending.time_s);
 }
 
-bool says_why(const Ending& ending) { return ending.outcome != "arrived" && ending.outcome != "time_up" && !ending.reports.empty(); }
+bool says_why(const Ending& ending) { return !arrives(ending) && ending.outcome != "time_up" && !ending.reports.empty(); }
 
 void Tally::add(const Ending& ending, double time, double length) {
   ++runs;
-  collided += ending.collisions > 0 ? 1 : 0;
-  broke_bans += ending.bans_broken > 0 ? 1 : 0;
-  lost_unaware += ending.lost_unaware ? 1 : 0;
-  if (ending.outcome == "arrived") {
+  collided += collides(ending) ? 1 : 0;
+  broke_bans += breaks_bans(ending) ? 1 : 0;
+  lost_unaware += is_lost_unaware(ending) ? 1 : 0;
+  if (arrives(ending)) {
     ++arrived;
     times.push_back(time);
     lengths.push_back(length);

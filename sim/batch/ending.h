@@ -46,6 +46,19 @@ inline constexpr std::size_t kMeasureCount = 9;
 /// Whether it stands, has not arrived, and reports why. A robot that still drove when the time was up says nothing by its reports.
 [[nodiscard]] bool says_why(const Ending& ending);
 
+/// What may have happened to a run, by the name under which it is counted.
+struct Happening {
+  std::string_view name;
+  bool (*is)(const Ending& ending);
+};
+inline bool arrives(const Ending& ending) { return ending.outcome == kOutcomes[0]; }
+inline bool collides(const Ending& ending) { return ending.collisions > 0; }
+inline bool breaks_bans(const Ending& ending) { return ending.bans_broken > 0; }
+inline bool is_lost_unaware(const Ending& ending) { return ending.lost_unaware; }
+inline bool is_touched_standing(const Ending& ending) { return ending.standing_contacts > 0; }
+inline constexpr std::array kHappenings{Happening{"arrived", arrives}, Happening{"collisions", collides}, Happening{"bans_broken", breaks_bans},
+                                        Happening{"lost_unaware", is_lost_unaware}, Happening{"standing_contacts", is_touched_standing}};
+
 /// Counts of endings.
 struct Tally {
   std::size_t runs = 0, arrived = 0;

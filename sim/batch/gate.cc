@@ -6,18 +6,14 @@ namespace kb::sim::batch {
 namespace {
 
 /// What a run can be counted for besides its outcome; computed from the columns of its row.
-struct Counted {
-  std::string_view name;
-  bool (*is)(const Run& run);
-};
 constexpr std::array kCounted{
-    Counted{"says_why", [](const Run& run) { return says_why(run); }},
-    Counted{"silent", [](const Run& run) { return run.outcome != kOutcomes[0] && !says_why(run); }},
-    Counted{"collisions", [](const Run& run) { return run.collisions > 0; }},
-    Counted{"bans_broken", [](const Run& run) { return run.bans_broken > 0; }},
-    Counted{"lost_unaware", [](const Run& run) { return run.lost_unaware; }},
-    Counted{"standing_contacts", [](const Run& run) { return run.standing_contacts > 0; }},
-    Counted{"missed", [](const Run& run) { return run.missed > 0; }},
+    Happening{"says_why", says_why},
+    Happening{"silent", [](const Ending& run) { return !arrives(run) && !says_why(run); }},
+    kHappenings[1],
+    kHappenings[2],
+    kHappenings[3],
+    kHappenings[4],
+    Happening{"missed", [](const Ending& run) { return run.missed > 0; }},
 };
 
 bool is(const Run& run, std::size_t kind) { return kind < kOutcomes.size() ? run.outcome == kOutcomes[kind] : kCounted[kind - kOutcomes.size()].is(run); }
@@ -26,7 +22,7 @@ constexpr std::array kNames = [] {
   std::array<std::string_view, kOutcomes.size() + kCounted.size()> names{};
   std::size_t next = 0;
   for (const std::string_view outcome : kOutcomes) names[next++] = outcome;
-  for (const Counted& counted : kCounted) names[next++] = counted.name;
+  for (const Happening& counted : kCounted) names[next++] = counted.name;
   return names;
 }();
 

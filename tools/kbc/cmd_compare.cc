@@ -12,6 +12,7 @@
 #include "compiler/diagnostics/display.h"
 #include "sim/batch/compare.h"
 #include "tools/kbc/checks.h"
+#include "tools/kbc/expected_counts.h"
 #include "tools/kbc/named_files.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/stream.h"
@@ -80,16 +81,8 @@ std::string head_of(const CompareOptions& options, const sim::batch::Comparison&
 }
 
 int run(const CompareOptions& options, Session& session) {
-  std::string why;
-  std::vector<sim::batch::Demand> demands;
-  if (!options.expect.empty()) {
-    auto read = sim::batch::read_demands(options.expect, sim::batch::kPairDemands, why);
-    if (!read) {
-      session.report(Kind::kFleetExpect, {options.expect, why});
-      return kErrors;
-    }
-    demands = std::move(*read);
-  }
+  const auto demands = expected_counts(options.expect, sim::batch::kPairDemands, session);
+  if (!demands) return kErrors;
   const auto between = read_between(options.between, session);
   if (!between) return kErrors;
   if (options.after.empty() && options.between.empty()) {
@@ -107,7 +100,7 @@ int run(const CompareOptions& options, Session& session) {
   const auto& comparison = std::get<sim::batch::Comparison>(compared);
   if (!options.csv.empty() && !session.write_files({{options.csv, sim::batch::print_pairs(comparison)}})) return kErrors;
   session.print(head_of(options, comparison) + sim::batch::summarise(comparison, static_cast<std::size_t>(options.most)));
-  for (const auto& unmet : sim::batch::unmet(demands, comparison)) {
+  for (const auto& unmet : sim::batch::unmet(*demands, comparison)) {
     session.report(Kind::kFleetUnexpected, {unmet.demand, sim::batch::name_of(comparison, comparison.rows[unmet.row]), unmet.found});
   }
   return session.exit_code();

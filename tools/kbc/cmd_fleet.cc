@@ -17,6 +17,7 @@
 #include "sim/batch/gate.h"
 #include "tools/kbc/checks.h"
 #include "tools/kbc/drive_ground.h"
+#include "tools/kbc/expected_counts.h"
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/fleet_shards.h"
 #include "tools/kbc/interrupts.h"
@@ -240,15 +241,6 @@ void compare_rows(const std::vector<sim::batch::Demand>& expected, const Batch& 
   }
 }
 
-bool read_expected(const std::string& text, std::vector<sim::batch::Demand>& expected, Session& session) {
-  if (text.empty()) return true;
-  std::string why;
-  auto read = sim::batch::read_demands(text, sim::batch::countable(), why);
-  if (!read) session.report(Kind::kFleetExpect, {text, why});
-  else expected = std::move(*read);
-  return read.has_value();
-}
-
 /// Says how much of the batch is there, and prints the table of that.
 int tell_status(const Batch& batch, const BatchFiles& files, std::size_t shards, Session& session) {
   auto runs = files.runs(session);
@@ -260,8 +252,8 @@ int tell_status(const Batch& batch, const BatchFiles& files, std::size_t shards,
 
 int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session& session) {
   Prepared prepared;
-  std::vector<sim::batch::Demand> expected;
-  if (!read_expected(options.expect, expected, session) || !prepare(options, prepared, session)) return kErrors;
+  const auto expected = expected_counts(options.expect, sim::batch::countable(), session);
+  if (!expected || !prepare(options, prepared, session)) return kErrors;
   std::vector<std::size_t> wanted;
   for (std::size_t shard = share.mine; shard < prepared.batch->shards(); shard += share.of) wanted.push_back(shard);
   BatchFiles files(options.out, *prepared.batch, prepared.parts);
@@ -287,7 +279,7 @@ int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session
   const auto merged = files.merge(session);
   if (!merged) return kErrors;
   session.print(merged->summary);
-  compare_rows(expected, *prepared.batch, merged->runs, session);
+  compare_rows(*expected, *prepared.batch, merged->runs, session);
   return session.exit_code();
 }
 

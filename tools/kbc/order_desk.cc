@@ -33,15 +33,19 @@ void OrderDesk::step() {
 
 void OrderDesk::wait(std::int64_t silent_us) {
   silent_ = silent_us >= kSilentUs;
-  if (silent_) speed_m_s_ = 0.0, turn_rad_s_.value = 0.0f;
+  if (silent_) stand();
   deal(t_us_ + silent_us);
 }
 
 void OrderDesk::leave() {
-  speed_m_s_ = 0.0, turn_rad_s_.value = 0.0f;
+  stand();
   vehicle_.observe(progress(), condition_, {}, {link_.utc_us(dealt_us_), dealt_us_});
-  for (const vda5050::Message& message : vehicle_.take_messages()) link_.send(message, dealt_us_);
+  send();
   link_.send(vehicle_.farewell(link_.utc_us(dealt_us_)), dealt_us_);
+}
+
+void OrderDesk::send() {
+  for (const vda5050::Message& message : vehicle_.take_messages()) link_.send(message, dealt_us_);
 }
 
 void OrderDesk::hear_line(const wire::Line& line) {
@@ -126,7 +130,7 @@ void OrderDesk::deal(std::int64_t t_us) {
   if (vehicle_.in_hand() && !on_a_mission_by_hand) exchange_.forget_place();
   set_task();
   give_actions();
-  for (const vda5050::Message& message : vehicle_.take_messages()) link_.send(message, t_us);
+  send();
 }
 
 /// Gives the host as many actions as fit into a line. It gets the others when these are done.

@@ -46,6 +46,8 @@ class OrderDesk {
     kRefused,   ///< its way cannot be driven (reported): told to the vehicle as begun, then as given up
   };
 
+  void stand() { speed_m_s_ = 0.0, turn_rad_s_.value = 0.0f; }
+  void send();
   void hear_line(const wire::Line& line);
   void hear_turn(const mts::Senses& senses, float dt_s);
   void follow_mission();

@@ -1,19 +1,30 @@
 // A comment allows the warnings of its line and of the statement below it.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "compiler/diagnostics/allowed.h"
 
 namespace kb::diagnostics {
 namespace {
 
-/// Whether `never-read` (KB1013) is allowed where the text has a `!`.
-bool allowed(std::string text) {
-  const std::size_t at = text.find('!');
-  text.erase(at, 1);
+/// A file, and the place in it where its text had a `!`.
+struct Marked {
+  explicit Marked(std::string text) {
+    const std::size_t at = text.find('!');
+    text.erase(at, 1);
+    const auto begin = static_cast<std::uint32_t>(at);
+    place = {sources.add("a.kb", std::move(text)), begin, begin + 1};
+  }
   source::Sources sources;
-  const auto file = sources.add("a.kb", text);
-  const auto begin = static_cast<std::uint32_t>(at);
-  return AllowancesOfFiles().allow(sources, {file, begin, begin + 1}, "never-read", "KB1013");
+  source::Span place;
+};
+
+/// Whether `never-read` (KB1013) is allowed where the text has a `!`.
+bool allowed(const std::string& text) {
+  const Marked marked(text);
+  return AllowancesOfFiles().allow(marked.sources, marked.place, "never-read", "KB1013");
 }
 
 TEST(Allowed, in_its_line_and_above_it) {
@@ -53,12 +64,9 @@ TEST(Allowed, by_name_or_code_with_a_reason) {
 }
 
 /// The number of the line, from 1, above which a comment would allow a warning where the text has a `!`.
-std::uint32_t line_of_comment(std::string text) {
-  const std::size_t at = text.find('!');
-  text.erase(at, 1);
-  source::Sources sources;
-  const auto file = sources.add("a.kb", text);
-  return sources.locate(file, line_to_allow(sources, {file, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(at)}).begin).line;
+std::uint32_t line_of_comment(const std::string& text) {
+  const Marked marked(text);
+  return marked.sources.locate(marked.place.file, line_to_allow(marked.sources, marked.place).begin).line;
 }
 
 TEST(Allowed, has_its_comment_above_the_statement_or_in_a_block_above_the_line) {

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "compiler/program/net_effects.h"
-#include "compiler/source/encoding.h"
+#include "tools/kbc/trace/grid.h"
 
 namespace kb::trace {
 
@@ -58,26 +57,19 @@ std::string ConflictTally::print() const {
   std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
     return a->second.ticks != b->second.ticks ? a->second.ticks > b->second.ticks : a->second.first < b->second.first;
   });
-  constexpr std::size_t kColumns = 5;
-  std::vector<std::array<std::string, kColumns>> lines{{"ticks", "first", "t", "cell", "rules"}};
+  std::vector<std::string> ticks{"ticks"}, firsts{"first"}, times{"t"}, cells{"cell"}, rules{"rules"};
   for (const auto* entry : order) {
     const Pair& pair = entry->second;
-    lines.push_back({fmt::format("{}", pair.ticks), fmt::format("{}", pair.first), fmt::format("{}", static_cast<double>(pair.first_us) / 1e6),
-                     std::string(program_[std::get<0>(entry->first)].name), fmt::format("{}, {}", name(pair.one), name(pair.other))});
+    ticks.push_back(fmt::format("{}", pair.ticks));
+    firsts.push_back(fmt::format("{}", pair.first));
+    times.push_back(fmt::format("{}", static_cast<double>(pair.first_us) / 1e6));
+    cells.emplace_back(program_[std::get<0>(entry->first)].name);
+    rules.push_back(fmt::format("{}, {}", name(pair.one), name(pair.other)));
   }
-  std::array<std::size_t, kColumns> widest{};
-  for (const auto& line : lines)
-    for (std::size_t i = 0; i < kColumns; ++i) widest[i] = std::max(widest[i], source::code_points(line[i]));
-  std::string out;
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < kColumns; ++i) {
-      const std::string gap(widest[i] - source::code_points(line[i]), ' ');
-      const bool number = i < 3;
-      out += (i == 0 ? "" : "  ") + (number ? gap + line[i] : i + 1 == kColumns ? line[i] : line[i] + gap);
-    }
-    out += '\n';
-  }
-  return out;
+  Grid grid(ticks.size());
+  for (const auto* numbers : {&ticks, &firsts, &times}) grid.add_column(*numbers, false);
+  for (const auto* words : {&cells, &rules}) grid.add_column(*words, true);
+  return grid.text();
 }
 
 }  // namespace kb::trace

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
 #include "tools/kbc/trace/cell_names.h"
+#include "tools/kbc/trace/grid.h"
 
 namespace kb::trace {
 namespace {
@@ -17,9 +17,6 @@ using program::CellKind;
 /// Three digits are enough to read a table; the trace has all of them.
 std::string number(float value) { return value == 0.0f ? "0" : fmt::format("{:.3g}", value); }
 
-// Counts characters and not bytes, because names may be in any script.
-std::string pad(std::string_view text, std::size_t to) { return std::string(to - std::min(to, source::code_points(text)), ' '); }
-
 // Whether the cells do not show which strategy runs: it is idle, held, or the first of several.
 bool runs_unsaid(const program::Tick& tick) {
   return tick.active.size() > 1 || (tick.active.empty() && tick.strategy != CellId::kNone);
@@ -28,28 +25,6 @@ bool runs_unsaid(const program::Tick& tick) {
 std::string_view heading(CellKind kind) {
   return kind == CellKind::kFact ? "facts" : kind == CellKind::kSatellite ? "satellites" : "strategies";
 }
-
-// Lines of text, built column by column, so that each column is as wide as its widest entry.
-class Grid {
- public:
-  explicit Grid(std::size_t lines) : lines_(lines) {}
-  void add_column(const std::vector<std::string>& entries, bool left) {
-    std::size_t widest = 0;
-    for (const std::string& entry : entries) widest = std::max(widest, source::code_points(entry));
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const std::string gap = pad(entries[i], widest);
-      lines_[i] += (lines_[i].empty() ? "" : "  ") + (left ? entries[i] + gap : gap + entries[i]);
-    }
-  }
-  [[nodiscard]] std::string text() const {
-    std::string out;
-    for (const std::string& line : lines_) out.append(line, 0, line.find_last_not_of(' ') + 1).append("\n");
-    return out;
-  }
-
- private:
-  std::vector<std::string> lines_;
-};
 
 }  // namespace
 
