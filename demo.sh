@@ -7,6 +7,7 @@ cd "$(dirname "$0")"
 mkdir -p build/logs
 quietly() {
   local log=build/logs/demo_build.log
+  : >"$log"   # ends here if it cannot be written
   if ! "$@" >"$log" 2>&1 </dev/null; then
     cat "$log" >&2
     exit 1
@@ -17,7 +18,7 @@ if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache;
 echo "1. building kbc and the example (a few minutes the first time)" >&2
 tools/install_packages build >&2
 build=build/demo
-if [ -e build/test/CMakeCache.txt ]; then build=build/test   # what ./test.sh has built serves as well
+if [ -e build/test/bin/kbc ]; then build=build/test   # what ./test.sh has built serves as well
 else quietly cmake --preset test -B $build -DWAYMARK_BUILD_TESTS=OFF -DWAYMARK_WERROR=OFF   # the preset that is built fastest
 fi
 quietly cmake --build $build --target example_route1
