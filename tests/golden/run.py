@@ -18,7 +18,7 @@ code. The name of a case is a sentence, and begins with `fail_` if and only if i
 an expectation: exit code 70, a signal, or a sanitizer's report fail whatever stands in the `.out`.
 
 Where the first line says `# RUN LONG:`, --short leaves the case out. These are drives of minutes and inputs of megabytes: one
-case of thirty, and half of the time under sanitizers, over code that the others go through as well.
+case of twenty, and two thirds of the time under sanitizers, over code that the others go through as well.
 
     run.py --kbc build/release/bin/kbc [filter...]     all cases, or those whose path has a filter in it
     run.py --kbc ... --update [filter...]              writes the expectations anew; look at the diff before you commit

@@ -6,15 +6,16 @@ Each case is a file *.cc whose first line says what the compiler has to complain
     // MUST NOT COMPILE: text that stands in the message
 
 It is compiled twice. As it stands it has to fail with that text; with -DFIXED, which takes the mistake out, it has to
-compile: so it fails for the reason that is meant.
+compile: so it fails for the reason that is meant. The knowledge bases are those of the install test and of example 3.
 
-    run.py --compiler g++ [--compiler clang++] -- flags...
+    run.py --kbc KBC --root waymark --compiler g++ [--compiler clang++] -- flags...
 """
 import argparse
 import glob
 import os
 import subprocess
 import sys
+import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MARK = "// MUST NOT COMPILE: "
@@ -46,17 +47,23 @@ def check(compiler, flags, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--kbc", required=True)
+    parser.add_argument("--root", required=True)
     parser.add_argument("--compiler", action="append", required=True)
     parser.add_argument("flags", nargs="*")
     options = parser.parse_args()
     cases = sorted(glob.glob(os.path.join(HERE, "*.cc")))
     failed = 0
-    for compiler in options.compiler:
-        for path in cases:
-            fault = check(compiler, options.flags, path)
-            if fault:
-                failed += 1
-                print(f"FAIL {os.path.basename(path)} ({compiler}): {fault}")
+    with tempfile.TemporaryDirectory() as scratch:
+        for knowledge_base in ("tests/install/project/bumper.kb", "examples/03_fuzzy/robot.kb"):
+            subprocess.run([options.kbc, "compile", os.path.join(options.root, knowledge_base), "--out", scratch, "--fleet",
+                            "--library", os.path.join(options.root, "stdlib_rules")], check=True)
+        for compiler in options.compiler:
+            for path in cases:
+                fault = check(compiler, [*options.flags, "-I", scratch], path)
+                if fault:
+                    failed += 1
+                    print(f"FAIL {os.path.basename(path)} ({compiler}): {fault}")
     print(f"{len(cases) * len(options.compiler) - failed} passed, {failed} failed")
     return 1 if failed or not cases else 0
 

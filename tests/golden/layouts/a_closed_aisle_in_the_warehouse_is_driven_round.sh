@@ -1,1 +1,1 @@
-# RUN: kbc check ../../../examples/08_plant/mission.kb; kbc sim ../../../examples/08_plant/mission.kb --scenario ../../../examples/08_plant/closed.toml
+# RUN LONG: kbc check ../../../examples/08_plant/mission.kb; kbc sim ../../../examples/08_plant/mission.kb --scenario ../../../examples/08_plant/closed.toml
