@@ -67,10 +67,17 @@ std::string output_prefix(const CompileOptions& options) {
   return (std::filesystem::path(options.folder) / name).string();
 }
 
+// Whether PREFIX is no beginning of a name but itself what is written to: - or a device, a pipe, a socket.
+bool is_whole(const std::string& prefix) {
+  std::error_code missing;
+  const std::filesystem::file_status status = std::filesystem::status(prefix, missing);
+  return prefix == "-" || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status));
+}
+
 // The files to write, without the dependency file, in the order of `emit_files`.
 std::vector<std::string> output_names(const CompileOptions& options) {
+  if (is_whole(options.prefix)) return {options.prefix};
   const std::string prefix = output_prefix(options);
-  if (prefix == "-") return {prefix};
   std::vector<std::string> names;
   for (const std::string& ending : output_endings(options)) names.push_back(prefix + ending);
   return names;
@@ -122,12 +129,15 @@ bool can_list_files(const std::vector<std::string>& outputs, Session& session) {
   return true;
 }
 
+// As g++ does: a backslash is one of a name unless it stands before what it could escape.
 std::string escape_for_make(const std::string& path) {
   std::string out;
+  std::size_t backslashes = 0;   // just before
   for (const char c : path) {
-    if (c == ' ' || c == '#' || c == '\\') out += '\\';
+    if (c == ' ' || c == '\t' || c == '#') out.append(backslashes + 1, '\\');
     if (c == '$') out += '$';
     out += c;
+    backslashes = c == '\\' ? backslashes + 1 : 0;
   }
   return out;
 }
@@ -246,7 +256,7 @@ Run setup_compile(CLI::App& app) {
   auto options = std::make_shared<CompileOptions>();
   app.add_option("FILE", options->file, "The knowledge base")->required();
   auto* prefix = app.add_option("-o,--output", options->prefix,
-                                "Write PREFIX.h and PREFIX.cc (or PREFIX.json, PREFIX.kbt; these also to -, standard output); an ending that PREFIX has is not added again")
+                                "Write PREFIX.h and PREFIX.cc (or PREFIX.json, PREFIX.kbt; these also to -, standard output, or to a device); an ending that PREFIX has is not added again")
                      ->type_name("PREFIX");
   app.add_option("--out,--out-dir", options->folder, "Write to this folder, which is made if need be")
       ->type_name("DIR")
@@ -271,9 +281,9 @@ Run setup_compile(CLI::App& app) {
     if (!options->prefix.empty() && (last.empty() || last == "." || last == "..")) {
       throw CLI::ValidationError("--output", "`" + options->prefix + "` is a folder, and no beginning of a name; --out " + options->prefix + " writes into it");
     }
-    if (options->prefix != "-") return;
-    if (cpp) throw CLI::ValidationError("--output", "- takes one file, and C++ is two; name a prefix, or --emit json or image");
-    if (!options->depfile.empty()) throw CLI::ValidationError("--depfile", "it says what the outputs are made of, and - is the name of none; name a prefix");
+    if (!is_whole(options->prefix)) return;
+    if (cpp) throw CLI::ValidationError("--output", options->prefix + " takes one file, and C++ is two; name a prefix, or --emit json or image");
+    if (!options->depfile.empty()) throw CLI::ValidationError("--depfile", "it says what the outputs are made of, and " + options->prefix + " is the name of none; name a prefix");
   });
   return [options](Session& session) { return compile(*options, session); };
 }

@@ -21,6 +21,7 @@
 #include "tools/kbc/fleet_dealer.h"
 #include "tools/kbc/fleet_shards.h"
 #include "tools/kbc/interrupts.h"
+#include "tools/kbc/library_folder.h"
 #include "tools/kbc/row_names.h"
 #include "tools/kbc/source_print.h"
 
@@ -312,8 +313,7 @@ bool is_rank(const FleetOptions& options) {
 
 /// Replaces this process by the program that is linked with MPI, so that kbc itself need not be. Returns only if there is none.
 int hand_over(Session& session) {
-  std::error_code ignored;
-  const std::string program = (std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / "kbc-fleet-mpi").string();
+  const std::string program = (own_program().parent_path() / "kbc-fleet-mpi").string();
   if (session.launch().argv != nullptr) ::execv(program.c_str(), session.launch().argv);
   session.report(Kind::kFleetNoMpi, {});
   return kErrors;

@@ -1,5 +1,7 @@
 #include "tools/kbc/library_folder.h"
 
+#include <sys/auxv.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
@@ -24,10 +26,15 @@ std::optional<std::string> library_above(const std::string& folder) {
 
 std::string find_library(std::string_view asked) {
   if (std::string named = named_library(asked); !named.empty()) return named;
+  return (own_program().parent_path().parent_path() / "share" / "waymark" / "stdlib_rules").string();
+}
+
+std::filesystem::path own_program() {
   std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::filesystem::path folder = self.parent_path().parent_path() / "share" / "waymark" / "stdlib_rules";
-  return folder.string();
+  if (auto self = std::filesystem::read_symlink("/proc/self/exe", error); !error) return self;
+  const std::filesystem::path called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));   // there may be no /proc
+  auto self = std::filesystem::canonical(called, error);
+  return error ? called : self;
 }
 
 }  // namespace kb::cli
