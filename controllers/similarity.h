@@ -69,7 +69,7 @@ class Similarity {
   [[nodiscard]] constexpr float out(float value, const char* unit) const noexcept { return value * of(unit); }
 
   [[nodiscard]] constexpr Body in(const Body& robot) const noexcept { return scaled(robot, 1.0f / length_, 1.0f / time_, 1.0f / slow_); }
-  [[nodiscard]] constexpr Body out(const Body& small) const noexcept { return scaled(small, length_, time_, slow_); }
+  [[nodiscard]] constexpr Body out(const Body& body) const noexcept { return scaled(body, length_, time_, slow_); }
 
   /// What is unknown, infinite or old stays so. `met_m` is not converted: SteadyRanges computes it from the converted senses.
   [[nodiscard]] constexpr Senses in(Senses senses) const noexcept {

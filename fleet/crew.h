@@ -13,7 +13,8 @@
 namespace mts {
 
 /// A few threads that wait for work. Use a crew from one thread at a time. A thread that has nothing to do looks for work for 0.2 ms, giving
-/// way to others, and then sleeps: waking it takes some 50 us, longer than a tick of 65,536 robots.
+/// way to others, and then sleeps: waking it takes some 50 us, longer than a tick of 65,536 robots. After `fork` the child has no threads, and
+/// would wait for ever: make crews after it.
 class Crew {
  public:
   /// `threads`: how many work at the same time, including the caller's; 0 is taken as 1. If the system cannot start a thread, the program

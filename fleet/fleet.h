@@ -1,6 +1,6 @@
 // Many robots with one knowledge base, decided 64 to 512 at a time, one bit each. User code includes this through the header that
-// `kbc compile --fleet` writes. Needs hosted C++20. Uses the heap; throws only std::bad_alloc. With -fno-exceptions, or while a crew
-// ticks, running out of memory ends the program instead.
+// `kbc compile --fleet` writes. Needs hosted C++20. Uses the heap; throws only std::bad_alloc, and not while it ticks: half a tick cannot be
+// taken back, so running out of memory there ends the program. With -fno-exceptions it always does.
 //
 //   route1::Fleet fleet(100'000);
 //   for (;;) {
@@ -96,14 +96,14 @@ class Fleet {
 
   /// Ticks all robots. `since_last` is the time since the tick before; it is ignored on the first. Cost: blocks of 512 robots in which
   /// nothing happens are passed over; docs/fleets.md has figures for the others.
-  void tick(Duration since_last) {
+  void tick(Duration since_last) noexcept {
     begin_tick(since_last);
     memory_.make_room(1);
     tick_blocks(0, memory_.blocks(), 0);
     memory_.note_ticked();
   }
   /// The same, shared out among the threads of a crew. The decisions are the same.
-  void tick(Duration since_last, Crew& crew) {
+  void tick(Duration since_last, Crew& crew) noexcept {
     begin_tick(since_last);
     const std::uint64_t blocks = memory_.blocks();
     memory_.make_room(crew.threads());

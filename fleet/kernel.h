@@ -29,7 +29,7 @@ namespace mts {
 /// Number of this contract, which includes what fleet.h and kernel_code.h require of emitted files. Every change of the contract raises it.
 /// The number of the tables is kAbi.
 inline constexpr std::uint32_t kFleetAbi = 2;
-// check_abi: 2 432b3468f817
+// check_abi: 2 1235b8c0c83d
 
 inline constexpr std::uint32_t kBlockRobots = 512;
 inline constexpr std::uint32_t kPlaneBytes = kBlockRobots / 8;
