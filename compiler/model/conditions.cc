@@ -64,7 +64,7 @@ std::uint32_t Conditions::add(Pattern pattern) {
   return static_cast<std::uint32_t>(patterns_.size() - 1);
 }
 
-std::uint32_t Conditions::compile(syntax::CondId id, bool loose) {
+std::uint32_t Conditions::compile(syntax::CondId id, source::Span loose) {
   const std::uint32_t made = add(read(tree_[id]));
   patterns_[made].loose = loose;
   if (!patterns_[made].same) return made;
@@ -80,18 +80,17 @@ std::uint32_t Conditions::compile(syntax::CondId id, bool loose) {
   return made;
 }
 
-bool Conditions::is_loose(const syntax::Cond& around, syntax::CondId part) {
+/// The time of a loose timer, else none.
+source::Span Conditions::loose_time(const syntax::Cond& around, syntax::CondId part) {
   const syntax::Cond& timer = tree_[part];
-  if (!of_rule_ || around.kind != syntax::Cond::Kind::kAnd || timer.kind != syntax::Cond::Kind::kFor) return false;
-  const bool loose = !timer.parenthesised && !tree_[timer.children.front()].parenthesised;
-  loose_timers_ = loose_timers_ || loose;
-  return loose;
+  if (around.kind != syntax::Cond::Kind::kAnd || timer.kind != syntax::Cond::Kind::kFor) return {};
+  return timer.parenthesised || tree_[timer.children.front()].parenthesised ? source::Span() : timer.time;
 }
 
 void Conditions::read_children(const syntax::Cond& cond, Pattern& pattern) {
   pattern.same = true;
   for (const syntax::CondId child : cond.children) {
-    pattern.children.push_back(compile(child, is_loose(cond, child)));
+    pattern.children.push_back(compile(child, loose_time(cond, child)));
     pattern.same = pattern.same && patterns_[pattern.children.back()].same;
   }
 }
@@ -209,15 +208,19 @@ Outcome Conditions::evaluate(std::uint32_t id, Environment values, CondId& made)
             : pattern.op == Pattern::Op::kNot ? Cond::Op::kNot
                                               : Cond::Op::kFor;
   cond.duration_us = pattern.duration_us;
-  cond.loose = pattern.loose;
+  cond.loose = pattern.loose.known();
   cond.children.reserve(pattern.children.size());
   Outcome worst = Outcome::kMade;
   for (const std::uint32_t child : pattern.children) {
     CondId part{};
     worst = std::max(worst, evaluate(child, values, part));
     cond.children.push_back(part);
+    const bool joins = worst == Outcome::kMade && (cond.op == Cond::Op::kAnd || cond.op == Cond::Op::kOr);
+    cond.loose = cond.loose || (joins && draft_.model[part].loose);
   }
-  if (worst == Outcome::kMade) made = pattern.op == Pattern::Op::kNot ? negate(cond.children.front()) : add_cond(draft_.model, std::move(cond));
+  if (worst != Outcome::kMade) return worst;
+  made = pattern.op == Pattern::Op::kNot ? negate(cond.children.front()) : add_cond(draft_.model, std::move(cond));
+  if (pattern.loose.known()) draft_.model.loose_timers.insert_or_assign(made, pattern.loose);
   return worst;
 }
 

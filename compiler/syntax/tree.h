@@ -87,6 +87,7 @@ struct Cond {
   source::Span span;
   std::vector<CondId> children;
   Number duration;             ///< kFor
+  source::Span time;           ///< kFor: `for 300 ms`
   RefId ref{};                 ///< kEvent, kLost, kSeen, kIs, kAny
   bool sat = false;            ///< kIs, kAny: `sat` stood before the reference
   bool none = false;           ///< kAny: `no` instead of `any`

@@ -169,7 +169,7 @@ class TreeBuilder {
   // ---- conditions
   [[nodiscard]] Id combine(Cond::Kind kind, Span span, Id left, Id right);
   [[nodiscard]] Id extend(Span span, Id whole, Id part);
-  [[nodiscard]] Id held_for(Span span, Id condition, Id duration);
+  [[nodiscard]] Id held_for(Span span, Span word, Id condition, Id duration);
   [[nodiscard]] Id negate(Span span, Id condition);
   [[nodiscard]] Id parenthesised(Span span, Id condition);
   [[nodiscard]] Id question(Cond::Kind kind, Span span, Id ref);

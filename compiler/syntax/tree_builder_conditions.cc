@@ -51,12 +51,13 @@ TreeBuilder::Id TreeBuilder::extend(Span span, Id whole, Id part) {
   return whole;
 }
 
-TreeBuilder::Id TreeBuilder::held_for(Span span, Id condition, Id duration) {
+TreeBuilder::Id TreeBuilder::held_for(Span span, Span word, Id condition, Id duration) {
   Cond held;
   held.kind = Cond::Kind::kFor;
   held.span = span;
   held.children = {CondId{condition}};
   held.duration = numbers_[duration];
+  held.time = join(word, held.duration.span);
   return add_condition(std::move(held), static_cast<std::uint16_t>(cond_depths_[condition] + 1));
 }
 
