@@ -136,6 +136,9 @@ class Diagnostics {
   /// From now on only messages that `filter` takes are handed on and counted.
   void limit(std::function<bool(const Diagnostic&)> filter) { filter_ = std::move(filter); }
 
+  /// The places where the statements of a file begin, ascending: see note [allowed warnings].
+  void know_statements(source::FileId file, std::span<const std::uint32_t> begins) { allowed_.know(sources_, file, begins); }
+
   /// `{}` or `{0}` in the kind's text are filled with `arguments`.
   Builder report(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments = {});
 
