@@ -31,7 +31,7 @@ class Conditions {
   struct Pattern {
     enum class Op : std::uint8_t { kConstant, kBroken, kAnd, kOr, kNot, kFor, kEvent, kIs, kAny };
     Op op = Op::kBroken;
-    Cond::Op event = Cond::Op::kSeen;          ///< kEvent: which of the three
+    Cond::Op event = Cond::Op::kIs;            ///< kEvent: which of the three; kAny: or none of them
     syntax::Term term = syntax::Term::kHigh;   ///< kIs
     bool sat = false;                          ///< kIs, kAny
     bool plain = false;                        ///< kIs: neither `is` nor `sat`
@@ -55,6 +55,8 @@ class Conditions {
   Outcome evaluate_is(const Pattern& pattern, Environment values, CondId& made);
   Outcome evaluate_any(const Pattern& pattern, Environment values, CondId& made);
   [[nodiscard]] std::string all_of(const std::vector<CellId>& cells, bool sat) const;
+  [[nodiscard]] bool all_facts(const std::vector<CellId>& cells) const;
+  Outcome report_non_fact(const Pattern& pattern, const Operand& operand);
   Outcome report_many(const Pattern& pattern, const Operand& operand);
   Outcome report_no_cell(const Pattern& pattern, const Operand& operand);
   Outcome satellites_of(const Pattern& pattern, CellId cell, std::vector<CellId>& out);

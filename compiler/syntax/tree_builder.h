@@ -173,7 +173,7 @@ class TreeBuilder {
   [[nodiscard]] Id negate(Span span, Id condition);
   [[nodiscard]] Id parenthesised(Span span, Id condition);
   [[nodiscard]] Id question(Cond::Kind kind, Span span, Id ref);
-  [[nodiscard]] Id any(Span span, bool none, Id sat, Id ref);
+  [[nodiscard]] Id any(Span span, bool none, Id asked, Id ref);
   [[nodiscard]] Id is_high(Span span, Id sat, Id ref);
   [[nodiscard]] Id is(Span span, Id sat, Id ref, bool negated, Span term);
 

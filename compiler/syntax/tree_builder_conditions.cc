@@ -85,9 +85,11 @@ TreeBuilder::Id TreeBuilder::question(Cond::Kind kind, Span span, Id ref) {
   return add_condition(std::move(condition), ref_depths_[ref]);
 }
 
-TreeBuilder::Id TreeBuilder::any(Span span, bool none, Id sat, Id ref) {
+TreeBuilder::Id TreeBuilder::any(Span span, bool none, Id asked, Id ref) {
+  constexpr std::array kAsked{Cond::Kind::kIs, Cond::Kind::kIs, Cond::Kind::kEvent, Cond::Kind::kLost, Cond::Kind::kSeen};
   const Id id = question(Cond::Kind::kAny, span, ref);
-  tree_.conds[id].sat = sat != 0;
+  tree_.conds[id].sat = asked == 1;
+  tree_.conds[id].asked = kAsked[asked];
   tree_.conds[id].none = none;
   return id;
 }
