@@ -19,6 +19,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "compiler/analysis/conflict_findings.h"
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
 #include "compiler/program/conditions.h"
@@ -36,7 +37,6 @@ using program::Write;
 
 constexpr std::uint64_t kMostPairs = 4'000'000;  ///< of one contested cell or group
 constexpr std::uint64_t kMostPairsInAll = 12'000'000;
-constexpr std::size_t kMostCounted = 1'000;  ///< conflicts of one pair of rules as written
 constexpr std::size_t kMostFindings = 1'000; ///< pairs of rules as written; far more than are shown
 constexpr std::size_t kMostDemands = 2'000'000;  ///< of the rules of one level; once there are more, `no` over a long group demands nothing
 constexpr std::size_t kFewParts = 64;
@@ -54,19 +54,6 @@ struct Contest {
   bool lowered = false;
 };
 
-/// A cell about which two rules disagree; if the other rule raises another cell of the same group, that cell as well.
-struct Disagreement {
-  CellId cell = CellId::kNone;
-  CellId other = CellId::kNone;
-};
-
-/// Two rules, as written, that disagree: their first instances, and how many pairs of instances disagree.
-struct Finding {
-  RuleId first = RuleId::kNone, second = RuleId::kNone;
-  Disagreement about;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;   ///< of instances; a pair may disagree about several cells
-};
-
 class ConflictQuestions {
  public:
   explicit ConflictQuestions(Subject& subject)
@@ -78,7 +65,7 @@ class ConflictQuestions {
       const auto [begin, end] = program::rules_of(program_, level);
       search_level(begin, end);
     }
-    for (const auto& [families, finding] : found_) report(finding);
+    report_conflicts(subject_, satisfier_, found_);
   }
 
  private:
@@ -352,23 +339,6 @@ class ConflictQuestions {
     return satisfier_.together(goals, a.level) != Answer::kNo;
   }
 
-  void report(const Finding& finding) {
-    const bool first_is_users = !program_[finding.first].standard && program_[finding.second].standard;
-    const Rule& here = program_[first_is_users ? finding.first : finding.second];
-    const Rule& there = program_[first_is_users ? finding.second : finding.first];
-    const std::string_view a = program_[finding.first].name, b = program_[finding.second].name;
-    const std::string& level = program_.levels[here.level];
-    const std::string_view cell = program_[finding.about.cell].name;
-    const std::string others = finding.pairs.size() < kMostCounted ? more(static_cast<std::uint32_t>(finding.pairs.size()), "such pairs of their instances")
-                                                            : " (and very many more such pairs of their instances)";
-    const bool group = finding.about.other != CellId::kNone;
-    auto message = group ? subject_.diagnostics.report(Kind::kExclusiveConflict, here.span,
-                                                       {a, b, level, cell, program_[finding.about.other].name, others})
-                         : subject_.diagnostics.report(Kind::kConflictingRules, here.span, {a, b, level, cell, others});
-    if (there.span != here.span) message.note(Kind::kOtherRuleHere, there.span, {there.name});
-    note_events(subject_, satisfier_, program_[finding.first], program_[finding.second], message);
-  }
-
   Subject& subject_;
   const Program& program_;
   Satisfier satisfier_;
@@ -379,7 +349,7 @@ class ConflictQuestions {
   std::vector<CellId> reset_here_;                       // those of this contest
   std::uint64_t pairs_ = 0;
   std::string_view gave_up_;                             // why conflicts of this level that may be left are not looked for; empty if none are
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Finding> found_;  // by families
+  Findings found_;
 };
 
 }  // namespace

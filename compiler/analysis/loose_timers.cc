@@ -4,7 +4,9 @@
 // likely says how long a fact must have been there to be believed, unless it is certain that the time is over whenever the state begins, which the rule
 // is to end. A timer over another state times that one.
 #include <algorithm>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -27,8 +29,9 @@ using program::Rule;
 using program::RuleId;
 
 struct Loose {
-  CondId timer = CondId::kNone;
+  const program::LooseTimer* timer = nullptr;
   CondId state = CondId::kNone;   // the part beside it that asks for a satellite
+  std::uint32_t count = 0;        // of instances
 };
 
 class LooseTimers {
@@ -37,25 +40,28 @@ class LooseTimers {
       : subject_(subject), program_(subject.program), writers_(program_), satisfier_(program_, subject.domains, subject.confusions.get()) {}
 
   void run() {
-    ByFamily<Loose> found(subject_);
+    std::map<std::tuple<source::FileId, std::uint32_t, std::uint32_t>, Loose> found;   // by place, and by rule as written
     for (const program::LooseTimer& one : program_.loose_timers) {
       if (satisfier_.steps() >= Satisfier::kTotalSteps) break;
-      const Rule& rule = program_[one.rule];
-      if (rule.mode != program::Mode::kWhen || !lasts(one.timer) || needs_state(timed(one.timer), true)) continue;
-      for (const CondId part : beside(rule.condition, one.timer)) {
-        const bool of_absence = program_[timed(one.timer)].op == Cond::Op::kNot;
-        if (!of_absence && !ends(rule, part)) continue;
-        if (!runs_before(rule, one.timer, part, !of_absence)) continue;
-        found.add(one.rule, {one.timer, part});
-        break;
-      }
+      if (!lasts(one.timer) || needs_state(timed(one.timer), true)) continue;
+      const auto part = std::ranges::find_if(one.beside, [&](CondId state) { return is_loose(one, state); });
+      if (part == one.beside.end()) continue;
+      Loose& loose = found[{one.at.file, one.at.begin, subject_.family[program::index(one.rule)]}];
+      if (loose.count++ == 0) loose = {&one, *part, 1};
     }
-    found.for_each([&](RuleId id, const Loose& loose, std::uint32_t count) { report(program_[id], loose, count); });
+    for (const auto& [place, loose] : found) report(loose);
   }
 
  private:
   [[nodiscard]] CondId timed(CondId timer) const { return program_[timer].children.front(); }
   [[nodiscard]] bool lasts(CondId timer) const { return program_[timer].duration_us > 0 && !satisfier_.is_timed_event(timer); }
+
+  /// Whether the reader may take the timer for a time in the state.
+  [[nodiscard]] bool is_loose(const program::LooseTimer& one, CondId state) {
+    const Cond& waits = program_[timed(one.timer)];
+    const bool of_absence = waits.op == Cond::Op::kNot || (waits.op == Cond::Op::kIs && waits.term == program::Term::kLow);
+    return (of_absence || ends(program_[one.rule], state)) && runs_before(program_[one.rule], one.timer, state, !of_absence);
+  }
 
   /// Whether the condition needs a satellite or a strategy to be as it asks. Recursion as deep as conditions nest.
   [[nodiscard]] bool needs_state(CondId id, bool wanted) const {
@@ -67,20 +73,6 @@ class LooseTimers {
   /// Whether the rule lowers a satellite that the state asks for.
   [[nodiscard]] bool ends(const Rule& rule, CondId state) const {
     return std::ranges::any_of(asked(state), [&](CellId cell) { return program::net_value(program_, subject_.group_of, rule, cell).value_or(1.0f) <= 0.0f; });
-  }
-
-  /// The other parts of the `and` that the timer is a part of.
-  [[nodiscard]] std::vector<CondId> beside(CondId around, CondId timer) const {
-    const Cond& cond = program_[around];
-    std::vector<CondId> parts(cond.children.begin(), cond.children.end());
-    if (cond.op == Cond::Op::kAnd && std::erase(parts, timer) > 0) return parts;
-    if (cond.op == Cond::Op::kAnd || cond.op == Cond::Op::kOr) {
-      for (const CondId part : parts) {
-        std::vector<CondId> found = beside(part, timer);
-        if (!found.empty()) return found;
-      }
-    }
-    return {};
   }
 
   /// The satellites of which the condition asks whether one is high; none if it asks for something else.
@@ -127,10 +119,11 @@ class LooseTimers {
     return satisfier_.together(goals, rule.level) == Answer::kYes && !undone(subject_, satisfier_.demands(condition, rule.level), rule);
   }
 
-  void report(const Rule& rule, const Loose& loose, std::uint32_t count) {
-    const std::string what = print_condition(program_, timed(loose.timer)), all = print_condition(program_, loose.timer);
+  void report(const Loose& loose) {
+    const CondId timer = loose.timer->timer;
+    const std::string what = print_condition(program_, timed(timer)), all = print_condition(program_, timer);
     const std::string time = all.substr(all.rfind(" for ") + 5), state = words_of(loose.state);
-    subject_.diagnostics.report(Kind::kLooseTimer, rule.span, {what, rule.name, time, state, more(count)});
+    subject_.diagnostics.report(Kind::kLooseTimer, loose.timer->at, {what, program_[loose.timer->rule].name, time, state, more(loose.count)});
   }
 
   /// `any Try` or `any sat Move` where all of that group are asked for.

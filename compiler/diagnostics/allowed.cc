@@ -39,7 +39,7 @@ bool is_indented(std::string_view line) { return is_blank(line) || line[0] == ' 
 
 }  // namespace
 
-Allowances::Allowances(std::string_view bytes) {
+Allowances::Allowances(std::string_view bytes, std::optional<std::span<const std::uint32_t>> statements) {
   if (bytes.find(kWord) == std::string_view::npos) return;
   std::vector<std::string_view> above, own;   // of the comment lines right above; and of the line itself
   for (std::size_t begin = 0; begin < bytes.size();) {
@@ -53,7 +53,8 @@ Allowances::Allowances(std::string_view bytes) {
       above.clear();
       if (is_blank(line)) own.clear();
       add(lines_, begin, own);
-      if (!is_indented(line)) add(statements_, begin, own);
+      const auto next = statements ? std::ranges::lower_bound(*statements, begin) : std::span<const std::uint32_t>::iterator();
+      if (statements ? next != statements->end() && *next < end : !is_indented(line)) add(statements_, begin, own);
     }
     begin = end + 1;
   }
@@ -75,6 +76,10 @@ bool Allowances::allow(std::uint32_t offset, std::string_view flag, std::string_
   return allow(lines_, offset, flag, code) || allow(statements_, offset, flag, code);
 }
 
+void AllowancesOfFiles::know(const source::Sources& sources, source::FileId file, std::span<const std::uint32_t> statements) {
+  files_.insert_or_assign(file, Allowances(sources.bytes(file), statements));
+}
+
 bool AllowancesOfFiles::allow(const source::Sources& sources, source::Span at, std::string_view flag, std::string_view code) {
   if (!at.known()) return false;
   const auto known = files_.find(at.file);
@@ -82,16 +87,10 @@ bool AllowancesOfFiles::allow(const source::Sources& sources, source::Span at, s
   return file.allow(at.begin, flag, code);
 }
 
-source::Sources::Line line_to_allow(const source::Sources& sources, source::Span at) {
-  constexpr int kMostLines = 1000;
-  const source::Sources::Line own = sources.line_of(at.file, at.begin);
-  source::Sources::Line line = own;
-  for (int i = 0; is_indented(line.text) || is_comment(line.text); ++i) {
-    if (i == kMostLines || line.begin == 0) return own;
-    line = sources.line_of(at.file, line.begin - 1);
-  }
+source::Sources::Line line_to_allow(const source::Sources& sources, source::Span at, std::uint32_t statement) {
+  const source::Sources::Line line = sources.line_of(at.file, statement);
   const std::string_view code = source::trimmed(line.text.substr(0, line.text.find('#')));
-  return code.ends_with('{') ? own : line;
+  return code.ends_with('{') ? sources.line_of(at.file, at.begin) : line;
 }
 
 }  // namespace kb::diagnostics

@@ -109,8 +109,7 @@ Builder Diagnostics::report(Kind kind, source::Span at, std::initializer_list<st
 // False if the user does not want to see the message. Turns a warning into an error if the user wants that.
 bool Diagnostics::wanted(Diagnostic& d) {
   if (d.severity != Severity::kWarning) return true;
-  const bool library = d.span.known() && sources_.standard(d.span.file) && !options_.standard_library;
-  if (options_.none || library || holds(options_.off, d.kind) || (!options_.allowed && allowed_by_source(d))) return false;
+  if (hides(d.kind, d.span) || std::any_of(d.notes.begin(), d.notes.end(), [&](const Note& note) { return allowed_by_source(d.kind, note.span); })) return false;
   if (raised(d.kind)) d.severity = Severity::kError;
   return true;
 }
@@ -119,10 +118,13 @@ bool Diagnostics::raised(Kind warning) const {
   return holds(options_.error, warning) || (options_.all_errors && !holds(options_.never_error, warning));
 }
 
-bool Diagnostics::allowed_by_source(const Diagnostic& d) {
-  const std::string code = code_text(d.kind);
-  const auto allows = [&](source::Span at) { return allowed_.allow(sources_, at, info(d.kind).flag, code); };
-  return allows(d.span) || std::any_of(d.notes.begin(), d.notes.end(), [&](const Note& note) { return allows(note.span); });
+bool Diagnostics::hides(Kind warning, source::Span at, source::Span other) {
+  const bool library = at.known() && sources_.standard(at.file) && !options_.standard_library;
+  return options_.none || library || holds(options_.off, warning) || allowed_by_source(warning, at) || allowed_by_source(warning, other);
+}
+
+bool Diagnostics::allowed_by_source(Kind warning, source::Span at) {
+  return !options_.allowed && allowed_.allow(sources_, at, info(warning).flag, code_text(warning));
 }
 
 // The first that is not handed on counts as well: it says that there are more.

@@ -136,6 +136,9 @@ class Diagnostics {
   /// From now on only messages that `filter` takes are handed on and counted.
   void limit(std::function<bool(const Diagnostic&)> filter) { filter_ = std::move(filter); }
 
+  /// The places where the statements of a file begin, ascending: see note [allowed warnings].
+  void know_statements(source::FileId file, std::span<const std::uint32_t> begins) { allowed_.know(sources_, file, begins); }
+
   /// `{}` or `{0}` in the kind's text are filled with `arguments`.
   Builder report(Kind kind, source::Span at, std::initializer_list<std::string_view> arguments = {});
 
@@ -143,6 +146,9 @@ class Diagnostics {
   [[nodiscard]] bool full() const { return errors_ >= kMaxErrors; }
   /// True once no further warning of this kind is handed on: it is off, all warnings are, or enough were reported.
   [[nodiscard]] bool full(Kind warning) const;
+  /// Whether nobody wants to see a warning of this kind at this place: its kind is off, it is about the standard library, or a comment allows it
+  /// there or at the other place.
+  [[nodiscard]] bool hides(Kind warning, source::Span at, source::Span other = {});
   /// `closest`, for an error about to be reported; nothing if `full`. The cost is linear in the candidates, and if the file that
   /// declares them is missing or the wrong one, there are as many errors as names. `name` makes a candidate a view of something that
   /// lives on; what it makes empty is no candidate.
@@ -173,7 +179,7 @@ class Diagnostics {
   friend class Builder;
   void finish(Diagnostic&& diagnostic);
   bool wanted(Diagnostic& diagnostic);
-  [[nodiscard]] bool allowed_by_source(const Diagnostic& diagnostic);
+  [[nodiscard]] bool allowed_by_source(Kind warning, source::Span at);
   [[nodiscard]] bool raised(Kind warning) const;   // to an error
   const source::Sources& sources_;
   Consumer& consumer_;

@@ -49,7 +49,8 @@ std::optional<syntax::Term> term_of(std::string_view word) {
 
 Cond::Op event_of(syntax::Cond::Kind kind) {
   if (kind == syntax::Cond::Kind::kEvent) return Cond::Op::kEvent;
-  return kind == syntax::Cond::Kind::kLost ? Cond::Op::kLost : Cond::Op::kSeen;
+  if (kind == syntax::Cond::Kind::kLost) return Cond::Op::kLost;
+  return kind == syntax::Cond::Kind::kSeen ? Cond::Op::kSeen : Cond::Op::kIs;
 }
 
 std::string_view word_for(Cond::Op op) {
@@ -64,7 +65,7 @@ std::uint32_t Conditions::add(Pattern pattern) {
   return static_cast<std::uint32_t>(patterns_.size() - 1);
 }
 
-std::uint32_t Conditions::compile(syntax::CondId id, bool loose) {
+std::uint32_t Conditions::compile(syntax::CondId id, source::Span loose) {
   const std::uint32_t made = add(read(tree_[id]));
   patterns_[made].loose = loose;
   if (!patterns_[made].same) return made;
@@ -80,18 +81,17 @@ std::uint32_t Conditions::compile(syntax::CondId id, bool loose) {
   return made;
 }
 
-bool Conditions::is_loose(const syntax::Cond& around, syntax::CondId part) {
+/// The time of a loose timer, else none.
+source::Span Conditions::loose_time(const syntax::Cond& around, syntax::CondId part) {
   const syntax::Cond& timer = tree_[part];
-  if (!of_rule_ || around.kind != syntax::Cond::Kind::kAnd || timer.kind != syntax::Cond::Kind::kFor) return false;
-  const bool loose = !timer.parenthesised && !tree_[timer.children.front()].parenthesised;
-  loose_timers_ = loose_timers_ || loose;
-  return loose;
+  if (around.kind != syntax::Cond::Kind::kAnd || timer.kind != syntax::Cond::Kind::kFor) return {};
+  return timer.parenthesised || tree_[timer.children.front()].parenthesised ? source::Span() : timer.time;
 }
 
 void Conditions::read_children(const syntax::Cond& cond, Pattern& pattern) {
   pattern.same = true;
   for (const syntax::CondId child : cond.children) {
-    pattern.children.push_back(compile(child, is_loose(cond, child)));
+    pattern.children.push_back(compile(child, loose_time(cond, child)));
     pattern.same = pattern.same && patterns_[pattern.children.back()].same;
   }
 }
@@ -149,6 +149,7 @@ Conditions::Pattern Conditions::read(const syntax::Cond& cond) {
       break;
     case syntax::Cond::Kind::kAny:
       pattern.op = Pattern::Op::kAny;
+      pattern.event = event_of(cond.asked);
       negated = cond.none;
       break;
   }
@@ -174,7 +175,7 @@ bool Conditions::check_row(const Pattern& pattern) {
   const source::Span at = references_.span(pattern.ref);
   const std::string_view text = references_.text(pattern.ref);
   if (state == References::RowState::kUnknown) return true;
-  if (pattern.op == Pattern::Op::kEvent && state != References::RowState::kFact) {
+  if (pattern.event != Cond::Op::kIs && state != References::RowState::kFact) {
     draft_.diagnostics.report(Kind::kEventOfNonFact, at, {text, references_.describe_row(pattern.ref), word_for(pattern.event)});
     return false;
   }
@@ -209,15 +210,19 @@ Outcome Conditions::evaluate(std::uint32_t id, Environment values, CondId& made)
             : pattern.op == Pattern::Op::kNot ? Cond::Op::kNot
                                               : Cond::Op::kFor;
   cond.duration_us = pattern.duration_us;
-  cond.loose = pattern.loose;
+  cond.loose = pattern.loose.known();
   cond.children.reserve(pattern.children.size());
   Outcome worst = Outcome::kMade;
   for (const std::uint32_t child : pattern.children) {
     CondId part{};
     worst = std::max(worst, evaluate(child, values, part));
     cond.children.push_back(part);
+    const bool joins = worst == Outcome::kMade && (cond.op == Cond::Op::kAnd || cond.op == Cond::Op::kOr);
+    cond.loose = cond.loose || (joins && draft_.model[part].loose);
   }
-  if (worst == Outcome::kMade) made = pattern.op == Pattern::Op::kNot ? negate(cond.children.front()) : add_cond(draft_.model, std::move(cond));
+  if (worst != Outcome::kMade) return worst;
+  made = pattern.op == Pattern::Op::kNot ? negate(cond.children.front()) : add_cond(draft_.model, std::move(cond));
+  if (pattern.loose.known()) draft_.model.loose_timers.insert_or_assign(made, pattern.loose);
   return worst;
 }
 
@@ -253,20 +258,28 @@ Outcome Conditions::evaluate_event(const Pattern& pattern, Environment values, C
   const Operand operand = references_.evaluate(pattern.ref, values);
   if (operand.kind == Operand::Kind::kBroken) return Outcome::kBroken;
   if (operand.kind == Operand::Kind::kMissing) return Outcome::kMissing;
-  const std::string_view text = references_.text(pattern.ref);
-  const source::Span at = references_.span(pattern.ref);
   const auto cell = references_.cell_of(operand);
-  if (!cell && references_.cells_of(operand)) {
-    draft_.diagnostics.report(Kind::kEventOfGroup, at, {text, references_.describe(operand), word_for(pattern.event)});
+  const auto cells = cell ? std::nullopt : references_.cells_of(operand);
+  if (cells && all_facts(*cells)) {
+    draft_.diagnostics.report(Kind::kEventOfGroup, references_.span(pattern.ref),
+                              {references_.text(pattern.ref), references_.describe(operand), word_for(pattern.event)});
     return Outcome::kBroken;
   }
-  if (!cell || draft_.model[*cell].kind != CellKind::kFact) {
-    auto message = draft_.diagnostics.report(Kind::kEventOfNonFact, at, {text, references_.describe(operand), word_for(pattern.event)});
-    if (cell && draft_.model[*cell].kind == CellKind::kSatellite) message.note(Kind::kAskedAlone, {}, {text});
-    return Outcome::kBroken;
-  }
+  if (!cell || !all_facts({*cell})) return report_non_fact(pattern, operand);
   made = ask(pattern.event, *cell);
   return Outcome::kMade;
+}
+
+bool Conditions::all_facts(const std::vector<CellId>& cells) const {
+  return std::ranges::all_of(cells, [this](CellId cell) { return draft_.model[cell].kind == CellKind::kFact; });
+}
+
+Outcome Conditions::report_non_fact(const Pattern& pattern, const Operand& operand) {
+  const std::string_view text = references_.text(pattern.ref);
+  const auto cell = references_.cell_of(operand);
+  auto message = draft_.diagnostics.report(Kind::kEventOfNonFact, references_.span(pattern.ref), {text, references_.describe(operand), word_for(pattern.event)});
+  if (cell && draft_.model[*cell].kind == CellKind::kSatellite) message.note(Kind::kAskedAlone, {}, {text});
+  return Outcome::kBroken;
 }
 
 /// `In.N and In.S`, or the first two of more.
@@ -347,6 +360,7 @@ Outcome Conditions::evaluate_any(const Pattern& pattern, Environment values, Con
   }
   const auto cells = references_.cells_of(operand);
   if (!cells) return report_no_cell(pattern, operand);
+  if (pattern.event != Cond::Op::kIs && !all_facts(*cells)) return report_non_fact(pattern, operand);
   std::vector<CellId> asked;
   for (const CellId cell : *cells) {
     if (!pattern.sat) asked.push_back(cell);
@@ -354,7 +368,7 @@ Outcome Conditions::evaluate_any(const Pattern& pattern, Environment values, Con
   }
   Cond cond;
   cond.op = Cond::Op::kOr;
-  for (const CellId cell : asked) cond.children.push_back(ask(Cond::Op::kIs, cell));
+  for (const CellId cell : asked) cond.children.push_back(ask(pattern.event, cell));
   made = add_cond(draft_.model, std::move(cond));
   return Outcome::kMade;
 }

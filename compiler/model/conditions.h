@@ -21,12 +21,9 @@ class Conditions {
       : draft_(draft), tree_(tree), references_(references) {}
   /// The condition is about one road, whose exit it may name `exit`: of a group over exits that one is probably meant.
   void of_road() { of_road_ = true; }
-  /// The condition is that of a rule, whose loose timers are told: see note [loose timers].
-  void of_rule() { of_rule_ = true; }
-  [[nodiscard]] bool has_loose_timers() const { return loose_timers_; }
 
   /// The compiled form of a condition; parts that are the same in all instances are resolved here, once.
-  std::uint32_t compile(syntax::CondId cond) { return compile(cond, false); }
+  std::uint32_t compile(syntax::CondId cond) { return compile(cond, {}); }
   /// The condition of one instance, added to the model's. Recursion is bounded by the nesting of the source.
   Outcome evaluate(std::uint32_t pattern, Environment values, CondId& made);
 
@@ -34,12 +31,12 @@ class Conditions {
   struct Pattern {
     enum class Op : std::uint8_t { kConstant, kBroken, kAnd, kOr, kNot, kFor, kEvent, kIs, kAny };
     Op op = Op::kBroken;
-    Cond::Op event = Cond::Op::kSeen;          ///< kEvent: which of the three
+    Cond::Op event = Cond::Op::kIs;            ///< kEvent: which of the three; kAny: or none of them
     syntax::Term term = syntax::Term::kHigh;   ///< kIs
     bool sat = false;                          ///< kIs, kAny
     bool plain = false;                        ///< kIs: neither `is` nor `sat`
     bool same = false;                         ///< the same in all instances
-    bool loose = false;                        ///< kFor
+    source::Span loose;                        ///< kFor: its time, if it is loose: see note [loose timers]
     std::uint32_t duration_us = 0;
     std::uint32_t ref = 0;
     CondId constant{};
@@ -47,8 +44,8 @@ class Conditions {
   };
 
   std::uint32_t add(Pattern pattern);
-  std::uint32_t compile(syntax::CondId cond, bool loose);
-  [[nodiscard]] bool is_loose(const syntax::Cond& around, syntax::CondId part);
+  std::uint32_t compile(syntax::CondId cond, source::Span loose);
+  [[nodiscard]] source::Span loose_time(const syntax::Cond& around, syntax::CondId part);
   bool read_term(const syntax::Cond& cond, Pattern& pattern);
   void report_term(const syntax::Cond& cond, std::uint32_t ref);
   Pattern read(const syntax::Cond& cond);
@@ -58,6 +55,8 @@ class Conditions {
   Outcome evaluate_is(const Pattern& pattern, Environment values, CondId& made);
   Outcome evaluate_any(const Pattern& pattern, Environment values, CondId& made);
   [[nodiscard]] std::string all_of(const std::vector<CellId>& cells, bool sat) const;
+  [[nodiscard]] bool all_facts(const std::vector<CellId>& cells) const;
+  Outcome report_non_fact(const Pattern& pattern, const Operand& operand);
   Outcome report_many(const Pattern& pattern, const Operand& operand);
   Outcome report_no_cell(const Pattern& pattern, const Operand& operand);
   Outcome satellites_of(const Pattern& pattern, CellId cell, std::vector<CellId>& out);
@@ -67,7 +66,7 @@ class Conditions {
   Draft& draft_;
   const syntax::Tree& tree_;
   References& references_;
-  bool of_road_ = false, of_rule_ = false, loose_timers_ = false;
+  bool of_road_ = false;
   std::vector<Pattern> patterns_;
 };
 

@@ -20,7 +20,6 @@ class RuleReader {
     const std::size_t errors = draft_.diagnostics.errors();
     const bool bound = read_binders(draft_, rule_.binders, binders_, ranges_);
     const bool level = read_level();
-    conditions_.of_rule();
     condition_ = conditions_.compile(rule_.condition);
     const bool written = effects_.compile(rule_.effects);
     if (!bound || !level || !written) return;
@@ -54,8 +53,7 @@ class RuleReader {
     const auto count = combinations(draft_, ranges_, rule_.name);
     if (!count) return;
     const TemplateId tmpl{static_cast<std::uint32_t>(draft_.model.templates.size())};
-    draft_.model.templates.push_back({std::string(rule_.name.text), rule_.name.span, draft_.standard(rule_.name.span), level_, rule_.mode,
-                                      conditions_.has_loose_timers()});
+    draft_.model.templates.push_back({std::string(rule_.name.text), rule_.name.span, draft_.standard(rule_.name.span), level_, rule_.mode});
     make_room(draft_.model.rules, std::min(*count, kMaxRules));
     make_room(draft_.model.conds, std::min(*count, kMaxRules));
     std::vector<std::size_t> at(ranges_.size(), 0);

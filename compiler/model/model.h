@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -106,14 +107,14 @@ struct Relation {
 
 /// note [loose timers]
 /// In `A and B for 1 s` only `B` is timed, where a reader may think of both. Such a timer is loose: a part of an `and` with parentheses neither
-/// round the timer nor round what it times. It is told for rules only, since conditions are shared once they are lowered.
+/// round the timer nor round what it times. It is told here, since conditions are shared once they are lowered.
 
 /// A resolved condition. `and` of none is true, `or` of none is false.
 struct Cond {
   enum class Op : std::uint8_t { kAnd, kOr, kNot, kFor, kEvent, kLost, kSeen, kIs };
   Op op = Op::kAnd;
   syntax::Term term = syntax::Term::kHigh;  ///< kIs
-  bool loose = false;                       ///< kFor: see note [loose timers]
+  bool loose = false;                       ///< kFor: see note [loose timers]; kAnd, kOr: it has such a part
   CellId cell = CellId::kNone;              ///< kEvent, kLost, kSeen, kIs
   std::uint32_t duration_us = 0;            ///< kFor
   source::Few<CondId, 4> children;          ///< kAnd, kOr; kNot, kFor: one
@@ -129,7 +130,6 @@ struct Template {
   bool standard = false;      ///< from the standard library
   std::uint32_t level = 0;    ///< index into `levels`, 0 the highest
   syntax::Rule::Mode mode = syntax::Rule::Mode::kWhen;
-  bool loose_timers = false;  ///< its condition has some: see note [loose timers]
 };
 
 struct Rule {
@@ -262,6 +262,7 @@ struct Model {
   std::vector<Value> values;                  ///< fields of all rows, one row after another
   std::vector<Point> points;                  ///< those that fields hold
   std::vector<KeptCondition> kept;            ///< those that fields hold
+  std::map<CondId, source::Span> loose_timers;   ///< `for 300 ms`: see note [loose timers]
   std::vector<std::vector<CellId>> exclusive; ///< satellites and facts; a group is satellites only or facts only
   std::vector<CellId> priority;               ///< every strategy once, the highest first (a total order that extends the partial one)
   std::vector<Precedence> precedences;        ///< the partial order, as the lines state it

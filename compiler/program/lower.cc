@@ -119,7 +119,7 @@ class Lowering {
     conditions.reserve(model_.rules.size());
     for (const model::Rule& from : model_.rules) conditions.push_back(lower_condition(from.condition));
     for (std::uint32_t i = 0; i < model_.rules.size(); ++i) {
-      if (model_[model_.rules[i].tmpl].loose_timers) find_loose_timers(i, model_.rules[i].condition);
+      if (model_[model_.rules[i].condition].loose) find_loose_timers(i, model_.rules[i].condition);
     }
     cond_of_ = {};
     place_of_.resize(model_.templates.size(), kNoPlace);
@@ -131,17 +131,25 @@ class Lowering {
     for (const std::uint32_t i : order) {
       const RuleId made{static_cast<std::uint32_t>(program_.rules.size())};
       program_.rules.push_back(lower_rule(model_.rules[i], conditions[i], group_of));
-      for (auto loose = std::ranges::lower_bound(loose_, i, {}, &Loose::rule); loose != loose_.end() && loose->rule == i; ++loose) {
-        program_.loose_timers.push_back({made, loose->timer});
+      for (auto loose = std::ranges::lower_bound(loose_, RuleId{i}, {}, &LooseTimer::rule); loose != loose_.end() && loose->rule == RuleId{i}; ++loose) {
+        program_.loose_timers.push_back(*loose);
+        program_.loose_timers.back().rule = made;
       }
     }
   }
 
   void find_loose_timers(std::uint32_t rule, model::CondId id) {
-    const model::Cond& cond = model_[id];
-    if (cond.loose) loose_.push_back({rule, cond_of_[model::index(id)]});
-    if (cond.op != model::Cond::Op::kAnd && cond.op != model::Cond::Op::kOr) return;
-    for (const model::CondId part : cond.children) find_loose_timers(rule, part);
+    for (const model::CondId part : model_[id].children) {
+      if (!model_[part].loose) continue;
+      if (model_[part].op != model::Cond::Op::kFor) {
+        find_loose_timers(rule, part);
+        continue;
+      }
+      LooseTimer& timer = loose_.emplace_back(LooseTimer{RuleId{rule}, cond_of_[model::index(part)], {}, model_.loose_timers.at(part)});
+      for (const model::CondId other : model_[id].children) {
+        if (other != part) timer.beside.push_back(cond_of_[model::index(other)]);
+      }
+    }
   }
 
   Rule lower_rule(const model::Rule& from, CondId condition, const std::vector<std::uint32_t>& group_of) {
@@ -175,7 +183,6 @@ class Lowering {
     program_.controls.push_back(std::move(control));
   }
 
-  struct Loose { std::uint32_t rule; CondId timer; };   // the rule of the model
 
   const model::Model& model_;
   const source::Sources& sources_;
@@ -185,7 +192,7 @@ class Lowering {
   std::vector<CondId> cond_of_;                 // by model condition
   std::vector<std::uint32_t> place_of_;         // by template: the place of its rules, or kNoPlace
   std::vector<Effect> effects_;                 // of one rule
-  std::vector<Loose> loose_;                    // ascending by rule
+  std::vector<LooseTimer> loose_;               // ascending by rule, which is the model's
 };
 
 }  // namespace

@@ -113,10 +113,12 @@ struct Control {
   source::Span controller_span;
 };
 
-/// A timer that a rule's condition has as a part of an `and`, without parentheses: see note [loose timers] in compiler/model/model.h.
+/// A timer that a rule's condition, or that of a row in it, has as a part of an `and`, without parentheses: see note [loose timers] in compiler/model/model.h.
 struct LooseTimer {
   RuleId rule = RuleId::kNone;
   CondId timer = CondId::kNone;
+  std::vector<CondId> beside;   ///< the other parts of the `and`
+  source::Span at;              ///< `for 300 ms`
 };
 
 /// How fast the robot may drive while the satellite of a leg is high.

@@ -154,8 +154,11 @@ struct Place {
 Place special_slot(const TokenStream& stream, const TokenSet& expected) {
   const TokenKind last = stream.behind(1).kind;
   const bool declares = is_declaration(stream.statement().kind);
+  const TokenKind before = stream.behind(2).kind;
+  const bool of_each = last == T::kSat || last == T::kEvent || last == T::kLost || last == T::kSeen;
+  if (of_each && (before == T::kAny || before == T::kNo)) return {"a group", N::kGroup};
   if (condition_may_begin(expected) && last != T::kColon) return {"a condition", N::kCell};   // behind `:` a field, which has its own slot
-  if (last == T::kNot && stream.behind(2).kind == T::kIs) {
+  if (last == T::kNot && before == T::kIs) {
     return stream.statement().kind == T::kFuzzy ? Place{"a term", N::kTerm} : Place{"`low`, `zero` or `high`", N::kState};
   }
   if (last == T::kEvent || last == T::kAttention) return declares ? Place{"a number", N::kNone} : Place{"a fact", N::kFact};

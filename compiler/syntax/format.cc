@@ -20,6 +20,7 @@ using T = TokenKind;
 
 constexpr std::uint32_t kIndent = 4;
 constexpr std::uint16_t kFarthestArrow = 60;
+constexpr std::size_t kWidestRule = 120;   // on one line
 constexpr std::uint16_t kFarthestAttribute = 40;   // a column behind a longer list would move the others too far away
 
 // Whether a blank stands between two neighbours on a line. A sign stands right before what it belongs to.
@@ -97,6 +98,7 @@ class Formatter {
   struct Slot { std::uint32_t number; std::uint16_t gap, farthest = 0xFFFF; };
   [[nodiscard]] Slot slot() const;
   [[nodiscard]] bool table_on_one_line() const;
+  [[nodiscard]] bool rule_on_one_line() const;
   [[nodiscard]] bool is_later_field(std::size_t at) const { return tokens_[at - 1].kind == T::kComma && tokens_[at + 1].kind == T::kColon; }
 
   const source::Sources& sources_;
@@ -110,7 +112,7 @@ class Formatter {
   TokenKind statement_ = T::kEnd;
   std::uint32_t braces_ = 0, brackets_ = 0;
   bool in_clause_ = false;            // behind `when`, `while` or `then` of a rule
-  bool inline_table_ = false;
+  bool inline_table_ = false, inline_rule_ = false;
   bool in_head_ = false;              // of an input or an output of a fuzzy block: before its brace
   bool in_terms_ = false;             // between its braces
   bool in_value_ = false;             // behind the arrow of a fuzzy rule
@@ -144,6 +146,7 @@ void Formatter::enter_statement() {
   statement_ = token().kind;
   braces_ = brackets_ = 0;
   in_clause_ = inline_table_ = in_head_ = in_terms_ = in_value_ = false;
+  inline_rule_ = statement_ == T::kRule && rule_on_one_line();
 }
 
 void Formatter::take_comments() {
@@ -254,6 +257,15 @@ bool Formatter::table_on_one_line() const {
   return !breaks_between(token().span.begin, tokens_[end].span.begin);
 }
 
+/// Whether it was written so, and fits. Columns do not count, so that formatting twice gives the same.
+bool Formatter::rule_on_one_line() const {
+  std::size_t end = at_ + 1, width = source::code_points(sources_.text(token().span));
+  for (; tokens_[end].kind != T::kEnd && !tokens_[end].begins_statement; ++end) {
+    width += source::code_points(sources_.text(tokens_[end].span)) + (is_apart(tokens_[end - 1].kind, tokens_[end].kind) ? 1 : 0);
+  }
+  return width <= kWidestRule && !breaks_between(token().span.begin, tokens_[end - 1].span.begin);
+}
+
 /// Whether the token is a name that would begin a statement if a line began with it.
 bool Formatter::must_stay() const {
   return token().kind == T::kIdentifier && !token().begins_line && begins_statement(keyword(sources_.text(token().span)));
@@ -269,7 +281,7 @@ bool Formatter::wants_own_line() const {
   switch (statement_) {
     case T::kRule: {
       const TokenKind kind = token().kind;
-      return brackets_ == 0 && (kind == T::kWhen || kind == T::kWhile || kind == T::kThen);
+      return !inline_rule_ && brackets_ == 0 && (kind == T::kWhen || kind == T::kWhile || kind == T::kThen);
     }
     case T::kMap:
       return braces_ > 0 && (begins_item(token().kind) || token().kind == T::kRightBrace);
@@ -311,6 +323,7 @@ Family Formatter::family() const {
     case T::kSensor: return Family::kSensor;
     case T::kRow: return Family::kRow;
     case T::kDetour: return Family::kPlan;
+    case T::kRule: return inline_rule_ ? Family::kRule : Family::kNone;
     default: return Family::kNone;
   }
 }
@@ -341,6 +354,9 @@ Formatter::Slot Formatter::slot() const {
       return {static_cast<std::uint32_t>(field - fields_.begin()) + 2, 1, kFarthestArrow};
     }
     case Family::kPlan: return kind == T::kOn ? Slot{1, 2} : kind == T::kWhen ? Slot{2, 2} : Slot{0, 0};
+    case Family::kRule:
+      if (brackets_ > 0) return {0, 0};
+      return kind == T::kAt ? Slot{1, 1} : kind == T::kWhen || kind == T::kWhile ? Slot{2, 1} : kind == T::kThen ? Slot{3, 1} : Slot{0, 0};
     case Family::kLandmark: return kind == T::kAt ? Slot{1, 1} : Slot{0, 0};
     case Family::kRoad:
       if (kind == T::kTwoWay || kind == T::kArrow) return {1, 1};
@@ -353,19 +369,6 @@ Formatter::Slot Formatter::slot() const {
     case Family::kNone: break;
   }
   return {0, 0};
-}
-
-/// Gives every line the kind of end that the first one has. Which kind that is, is left to version control.
-std::string with_line_ends_of(std::string_view written, std::string laid_out) {
-  const std::size_t first = written.find('\n');
-  if (first == std::string_view::npos || first == 0 || written[first - 1] != '\r') return laid_out;
-  std::string out;
-  out.reserve(laid_out.size() + static_cast<std::size_t>(std::count(laid_out.begin(), laid_out.end(), '\n')));
-  for (const char c : laid_out) {
-    if (c == '\n') out += '\r';
-    out += c;
-  }
-  return out;
 }
 
 }  // namespace

@@ -150,4 +150,16 @@ std::string print_lines(const std::vector<Line>& lines) {
   return out;
 }
 
+std::string with_line_ends_of(std::string_view written, std::string laid_out) {
+  const std::size_t first = written.find('\n');
+  if (first == std::string_view::npos || first == 0 || written[first - 1] != '\r') return laid_out;
+  std::string out;
+  out.reserve(laid_out.size() + static_cast<std::size_t>(std::count(laid_out.begin(), laid_out.end(), '\n')));
+  for (const char c : laid_out) {
+    if (c == '\n') out += '\r';
+    out += c;
+  }
+  return out;
+}
+
 }  // namespace kb::syntax

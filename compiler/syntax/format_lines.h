@@ -11,7 +11,7 @@ namespace kb::syntax {
 
 /// Neighbouring lines of one family share columns.
 enum class Family : std::uint8_t {
-  kNone, kDeclaration, kNames, kControl, kPlan, kLandmark, kRoad, kTable, kSensor, kRow, kFuzzyRule
+  kNone, kDeclaration, kNames, kControl, kPlan, kLandmark, kRoad, kTable, kSensor, kRow, kRule, kFuzzyRule
 };
 
 /// What stands in one column of a line.
@@ -40,5 +40,8 @@ struct Line {
 ///   at the ends of lines, at any distance. A line that is too long for a column is not aligned. A kept column is kept again, and
 ///   so is a re-made one, so formatting twice gives the same as formatting once.
 [[nodiscard]] std::string print_lines(const std::vector<Line>& lines);
+
+/// Gives every line the kind of end that the first one has. Which kind that is, is left to version control.
+[[nodiscard]] std::string with_line_ends_of(std::string_view written, std::string laid_out);
 
 }  // namespace kb::syntax

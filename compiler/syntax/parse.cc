@@ -1,4 +1,6 @@
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "compiler/syntax/parser.h"
 #include "compiler/syntax/syntax.h"
@@ -8,7 +10,13 @@
 namespace kb::syntax {
 
 Tree parse(const source::Sources& sources, source::FileId file, diagnostics::Diagnostics& diagnostics) {
-  TokenStream stream(sources, prepare(sources, scan(sources, file, Comments::kDrop)), diagnostics);
+  Prepared prepared = prepare(sources, scan(sources, file, Comments::kDrop));
+  std::vector<std::uint32_t> begins;
+  for (const Token& token : prepared.tokens) {
+    if (token.begins_statement) begins.push_back(token.span.begin);
+  }
+  diagnostics.know_statements(file, begins);
+  TokenStream stream(sources, std::move(prepared), diagnostics);
   TreeBuilder builder(sources, file, diagnostics);
   generated::Parser parser(stream, builder);
   parser.parse();

@@ -276,7 +276,10 @@ void Printer::print(int indent, const Cond& condition) {
            condition.negated ? "not " : "", condition.term.text);
       break;
     case Cond::Kind::kAny:
-      line(indent, "{} {}{}", condition.none ? "no" : "any", sat, ref_text(tree_, condition.ref));
+      line(indent, "{} {}{}", condition.none ? "no" : "any", condition.asked == Cond::Kind::kEvent  ? "event "
+                                                             : condition.asked == Cond::Kind::kLost ? "lost "
+                                                             : condition.asked == Cond::Kind::kSeen ? "seen "
+                                                                                                    : sat, ref_text(tree_, condition.ref));
       break;
     case Cond::Kind::kError: line(indent, "error"); break;
   }

@@ -80,15 +80,17 @@ struct Cond {
     kNot,    ///< not children[0]
     kEvent, kLost, kSeen,  ///< of `ref`
     kIs,     ///< `[sat] ref [is [not] term]`
-    kAny,    ///< `any|no [sat] ref`
+    kAny,    ///< `any|no [sat|event|lost|seen] ref`
     kError,  ///< could not be read; already reported, so later phases report nothing more about it
   };
   Kind kind = Kind::kError;
   source::Span span;
   std::vector<CondId> children;
   Number duration;             ///< kFor
+  source::Span time;           ///< kFor: `for 300 ms`
   RefId ref{};                 ///< kEvent, kLost, kSeen, kIs, kAny
   bool sat = false;            ///< kIs, kAny: `sat` stood before the reference
+  Kind asked = Kind::kIs;      ///< kAny: kEvent, kLost, kSeen or kIs of each
   bool none = false;           ///< kAny: `no` instead of `any`
   bool negated = false;        ///< kIs: `is not`
   bool parenthesised = false;  ///< parentheses of its own stand round it

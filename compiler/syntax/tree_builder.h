@@ -169,11 +169,11 @@ class TreeBuilder {
   // ---- conditions
   [[nodiscard]] Id combine(Cond::Kind kind, Span span, Id left, Id right);
   [[nodiscard]] Id extend(Span span, Id whole, Id part);
-  [[nodiscard]] Id held_for(Span span, Id condition, Id duration);
+  [[nodiscard]] Id held_for(Span span, Span word, Id condition, Id duration);
   [[nodiscard]] Id negate(Span span, Id condition);
   [[nodiscard]] Id parenthesised(Span span, Id condition);
   [[nodiscard]] Id question(Cond::Kind kind, Span span, Id ref);
-  [[nodiscard]] Id any(Span span, bool none, Id sat, Id ref);
+  [[nodiscard]] Id any(Span span, bool none, Id asked, Id ref);
   [[nodiscard]] Id is_high(Span span, Id sat, Id ref);
   [[nodiscard]] Id is(Span span, Id sat, Id ref, bool negated, Span term);
 

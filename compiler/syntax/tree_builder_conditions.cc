@@ -51,12 +51,13 @@ TreeBuilder::Id TreeBuilder::extend(Span span, Id whole, Id part) {
   return whole;
 }
 
-TreeBuilder::Id TreeBuilder::held_for(Span span, Id condition, Id duration) {
+TreeBuilder::Id TreeBuilder::held_for(Span span, Span word, Id condition, Id duration) {
   Cond held;
   held.kind = Cond::Kind::kFor;
   held.span = span;
   held.children = {CondId{condition}};
   held.duration = numbers_[duration];
+  held.time = join(word, held.duration.span);
   return add_condition(std::move(held), static_cast<std::uint16_t>(cond_depths_[condition] + 1));
 }
 
@@ -84,9 +85,11 @@ TreeBuilder::Id TreeBuilder::question(Cond::Kind kind, Span span, Id ref) {
   return add_condition(std::move(condition), ref_depths_[ref]);
 }
 
-TreeBuilder::Id TreeBuilder::any(Span span, bool none, Id sat, Id ref) {
+TreeBuilder::Id TreeBuilder::any(Span span, bool none, Id asked, Id ref) {
+  constexpr std::array kAsked{Cond::Kind::kIs, Cond::Kind::kIs, Cond::Kind::kEvent, Cond::Kind::kLost, Cond::Kind::kSeen};
   const Id id = question(Cond::Kind::kAny, span, ref);
-  tree_.conds[id].sat = sat != 0;
+  tree_.conds[id].sat = asked == 1;
+  tree_.conds[id].asked = kAsked[asked];
   tree_.conds[id].none = none;
   return id;
 }

@@ -151,8 +151,8 @@ source::Span TomlTable::span(std::string_view key) const {
   return places_->span(node != nullptr ? node->source() : table_->source());
 }
 
-void TomlTable::wrong_type(std::string_view key, const toml::node& node, std::string_view wanted) {
-  diagnostics_->report(Kind::kSimType, places_->span(node.source()), {key, type_word(node), wanted});
+diagnostics::Builder TomlTable::wrong_type(std::string_view key, const toml::node& node, std::string_view wanted) {
+  return diagnostics_->report(Kind::kSimType, places_->span(node.source()), {key, type_word(node), wanted});
 }
 
 bool TomlTable::in_range(std::string_view key, const toml::node& node, double value, Range range) {
@@ -169,7 +169,8 @@ std::optional<double> TomlTable::number(std::string_view key, Range range) {
   if (!value) {
     const auto* text = node->as_string();
     const std::string meant = text != nullptr ? number_at(text->get()) : std::string();
-    wrong_type(key, *node, meant.empty() ? "a number" : fmt::format("a number without quotation marks and unit, `{}`,", meant));
+    auto message = wrong_type(key, *node, meant.empty() ? "a number" : fmt::format("a number without quotation marks and unit, `{}`,", meant));
+    if (!meant.empty() && !text->get().ends_with(meant)) message.note(Kind::kSimUnits, {});
     return std::nullopt;
   }
   return in_range(key, *node, *value, range) ? value : std::nullopt;

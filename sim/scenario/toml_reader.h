@@ -82,7 +82,7 @@ class TomlTable {
  private:
   [[nodiscard]] bool is_asked(std::string_view key) const;
   [[nodiscard]] const toml::node* get(std::string_view key);
-  void wrong_type(std::string_view key, const toml::node& node, std::string_view wanted);
+  diagnostics::Builder wrong_type(std::string_view key, const toml::node& node, std::string_view wanted);
   [[nodiscard]] bool in_range(std::string_view key, const toml::node& node, double value, Range range);
 
   const toml::table* table_;

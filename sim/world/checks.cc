@@ -40,11 +40,6 @@ bool check_landmarks(const Labyrinth& labyrinth, const Nearby& crossings, Diagno
   return good;
 }
 
-/// Adds to a message about two things of different maps that these share a floor.
-void note_floor(const Labyrinth& labyrinth, std::uint32_t map, std::uint32_t other, diagnostics::Builder& message) {
-  if (map != other) message.note(Kind::kSimOneFloor, {}, {labyrinth.maps[map], labyrinth.maps[other]});
-}
-
 /// Reports two roads (or two pieces of one road) that come too near to each other. Roads that cross have been checked by cross_roads();
 /// here they only must not lie on each other.
 bool check_pair(const Labyrinth& labyrinth, const Road& a, const Road& b, const std::vector<Spot>& chain_a, const std::vector<Spot>& chain_b, Diagnostics& diagnostics) {

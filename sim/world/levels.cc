@@ -67,7 +67,9 @@ bool cross_pair(Labyrinth& labyrinth, const Ways& ways, RoadId over, RoadId by, 
       const double angle = angle_between(chain_a[i] - chain_a[i - 1], chain_b[j] - chain_b[j - 1]);
       const std::string why = obstacle(labyrinth, ways, over, by, angle);
       if (!why.empty()) {
-        diagnostics.report(Kind::kSimRoadsCross, b.span, {a.name, b.name, place_text(labyrinth, meeting->at), why}).note(Kind::kSimOtherHere, a.span);
+        auto message = diagnostics.report(Kind::kSimRoadsCross, b.span, {a.name, b.name, place_text(labyrinth, meeting->at), why});
+        message.note(Kind::kSimOtherHere, a.span);
+        note_floor(labyrinth, labyrinth[b.from].map, labyrinth[a.from].map, message);
         return false;
       }
       const bool lines = a.kind == Picture::Kind::kMark && b.kind == Picture::Kind::kMark;
@@ -89,8 +91,10 @@ bool cross_roads(Labyrinth& labyrinth, const Ways& ways, diagnostics::Diagnostic
   if (!good || labyrinth.levels.empty()) return good;
   const Level& first = labyrinth.levels.front();
   const Road &a = labyrinth[first.over], &b = labyrinth[first.by];
-  diagnostics.report(diagnostics::Kind::kSimLevel, b.span, {a.name, b.name, place_text(labyrinth, first.at), diagnostics::counted(labyrinth.levels.size(), "place")})
-      .note(diagnostics::Kind::kSimOtherHere, a.span);
+  const std::string places = diagnostics::counted(labyrinth.levels.size(), "place");
+  auto message = diagnostics.report(diagnostics::Kind::kSimLevel, b.span, {a.name, b.name, place_text(labyrinth, first.at), places});
+  message.note(diagnostics::Kind::kSimOtherHere, a.span);
+  note_floor(labyrinth, labyrinth[b.from].map, labyrinth[a.from].map, message);
   return true;
 }
 

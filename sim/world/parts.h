@@ -33,6 +33,11 @@ class Ways {
   Nearby near_;
 };
 
+/// Adds to a message about two things of different maps that these share a floor.
+inline void note_floor(const Labyrinth& labyrinth, std::uint32_t map, std::uint32_t other, diagnostics::Builder& message) {
+  if (map != other) message.note(diagnostics::Kind::kSimOneFloor, {}, {labyrinth.maps[map], labyrinth.maps[other]});
+}
+
 /// Reads a map: arms and roads, nothing scaled yet. Nothing if that fails (reported).
 [[nodiscard]] std::optional<Labyrinth> read_map(const model::Model& model, double size, diagnostics::Diagnostics& diagnostics);
 /// Removes bends beside landmarks where exits are nearly parallel to others, as far as that separates them (reported as a warning).

@@ -52,6 +52,17 @@ TEST(Allowed, above_the_statement_of_its_line) {
   EXPECT_FALSE(allowed("# allow: never-read\nfact C\nrule a at b\n    then +!D\n"));
 }
 
+TEST(Allowed, in_the_statement_that_is_known_to_begin_there) {
+  const std::string text = "  # allow: never-read\n  fact A,\nB\n  fact C\n";
+  const std::uint32_t begins[] = {24, 36};
+  const auto allows = [&, known = Allowances(text, begins)](const char* name) {
+    return known.allow(static_cast<std::uint32_t>(text.rfind(name)), "never-read", "KB1013");
+  };
+  EXPECT_TRUE(allows("A,"));
+  EXPECT_TRUE(allows("B\n")) << "it goes on without indentation";
+  EXPECT_FALSE(allows("C\n")) << "another begins, indented as well";
+}
+
 TEST(Allowed, by_name_or_code_with_a_reason) {
   EXPECT_TRUE(allowed("# allow: KB1013\nfact !Gate\n"));
   EXPECT_TRUE(allowed("# allow: never-set, never-read\nfact !Gate\n"));
@@ -63,16 +74,17 @@ TEST(Allowed, by_name_or_code_with_a_reason) {
   EXPECT_FALSE(allowed("# we allow: never-read\nfact !Gate\n"));
 }
 
-/// The number of the line, from 1, above which a comment would allow a warning where the text has a `!`.
-std::uint32_t line_of_comment(const std::string& text) {
+/// The number of the line, from 1, above which a comment would allow a warning where the text has a `!`, if its statement begins with the last `word`.
+std::uint32_t line_of_comment(const std::string& text, const char* word) {
   const Marked marked(text);
-  return marked.sources.locate(marked.place.file, line_to_allow(marked.sources, marked.place).begin).line;
+  const auto statement = static_cast<std::uint32_t>(text.rfind(word));
+  return marked.sources.locate(marked.place.file, line_to_allow(marked.sources, marked.place, statement).begin).line;
 }
 
 TEST(Allowed, has_its_comment_above_the_statement_or_in_a_block_above_the_line) {
-  EXPECT_EQ(line_of_comment("fact A\nfact !B\n"), 2u);
-  EXPECT_EQ(line_of_comment("fact A\n\nrule a at b   # why\n    when A\n    then +!C\n"), 3u);
-  EXPECT_EQ(line_of_comment("map M {   # {\n    road A\n    road !B\n}\n"), 3u);
+  EXPECT_EQ(line_of_comment("fact A\nfact !B\n", "fact"), 2u);
+  EXPECT_EQ(line_of_comment("fact A\n\n  rule a at b   # why\nwhen A\nthen +!C\n", "rule"), 3u);
+  EXPECT_EQ(line_of_comment("map M {   # {\n    road A\n    road !B\n}\n", "map"), 3u);
 }
 
 TEST(Allowed, nothing_where_there_is_no_place) { EXPECT_FALSE(AllowancesOfFiles().allow(source::Sources(), {}, "never-read", "KB1013")); }

@@ -39,6 +39,7 @@ TEST(Conditions, time_what_stands_before_for) {
 TEST(Conditions, have_all_primaries) {
   EXPECT_EQ(condition("event A and lost B and seen l.to"), "and\n  event A\n  lost B\n  seen l.to\n");
   EXPECT_EQ(condition("any G and no sat H and sat X"), "and\n  any G\n  no sat H\n  sat X\n");
+  EXPECT_EQ(condition("any event G and no lost H and any seen X"), "and\n  any event G\n  no lost H\n  any seen X\n");
   EXPECT_EQ(condition("A is low and sat B is not high"), "and\n  A is low\n  sat B is not high\n");
   EXPECT_EQ(condition("In[turn_of(i, o)].when"), "In[turn_of(i, o)].when\n");
 }

@@ -35,8 +35,17 @@ TEST(Format, of_every_file_of_the_project_is_idempotent_and_keeps_the_tree) {
 TEST(Format, leaves_a_file_with_errors_alone) { EXPECT_EQ(formatted("fact   A\nfact  (\n"), "fact   A\nfact  (\n"); }
 
 TEST(Format, gives_every_statement_and_every_clause_its_line) {
-  EXPECT_EQ(formatted("fact A set event=0.75 rule r[l in L]at map when A and not(B)for 300ms then+X,-  sat Y"),
+  EXPECT_EQ(formatted("fact A set event=0.75 rule r[l in L]at map when A and not(B)for 300ms\nthen+X,-  sat Y"),
             "fact A\nset event = 0.75\nrule r[l in L] at map\n    when A and not (B) for 300 ms\n    then +X, -sat Y\n");
+}
+
+TEST(Format, leaves_a_rule_on_one_line_that_was_written_so_and_fits) {
+  const std::string rules = "rule go   at act when A            then +B\nrule halt at act when A and seen C then -B\n";
+  EXPECT_EQ(formatted("rule go at act when A then+B\nrule halt at act when A and seen C then -B"), rules);
+  EXPECT_EQ(formatted(rules), rules);
+  const std::string name(95, 'a');   // with the rest 120 characters
+  EXPECT_EQ(formatted("rule " + name + " at b when C then +D\n"), "rule " + name + " at b when C then +D\n");
+  EXPECT_EQ(formatted("rule " + name + " at b when CC then +D\n"), "rule " + name + " at b\n    when CC\n    then +D\n");
 }
 
 TEST(Format, puts_neighbouring_lines_in_columns) {

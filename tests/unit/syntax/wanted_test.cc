@@ -44,6 +44,7 @@ TEST(Wanted, NamesAreOfTheKindThatThePlaceAsksFor) {
   EXPECT_EQ(names("rule a at b when (C or seen "), NameKind::kFact);
   EXPECT_EQ(names("rule a at b when C then +D, -"), NameKind::kSatellite);
   EXPECT_EQ(names("rule a at b when C then +sat "), NameKind::kFactOrStrategy);
+  EXPECT_EQ(names("rule a at b when any event "), NameKind::kGroup);
   EXPECT_EQ(names("rule a[x in "), NameKind::kRelationOrSet);
   EXPECT_EQ(names("table T(A) -> B {\n  a "), NameKind::kMember);
   EXPECT_EQ(names("fuzzy F {\n  input gap 0..1 m { near = "), NameKind::kShape);

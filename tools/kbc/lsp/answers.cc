@@ -108,7 +108,10 @@ std::vector<Better> better_texts(const Knowledge& knowledge, const diagnostics::
     out.push_back({"Write `" + import + "`", place_of_import(knowledge, message.span.file), import + "\n"});
   }
   if (const std::string_view flag = diagnostics::info(message.kind).flag; !flag.empty() && message.span.known()) {
-    const auto line = diagnostics::line_to_allow(knowledge.compiled->sources, message.span);
+    const auto statements = knowledge.statements(message.span.file);
+    const auto around = std::ranges::find_if(statements, [&](const syntax::Statement& one) { return one.span.begin <= message.span.begin && message.span.begin < one.span.end; });
+    const std::uint32_t begin = around == statements.end() ? message.span.begin : around->span.begin;
+    const auto line = diagnostics::line_to_allow(knowledge.compiled->sources, message.span, begin);
     const std::string_view indent = line.text.substr(0, std::min(line.text.find_first_not_of(" \t"), line.text.size()));
     out.push_back({fmt::format("Allow it here: `# allow: {}`", flag), {message.span.file, line.begin, line.begin}, fmt::format("{}# allow: {}\n", indent, flag)});
   }
