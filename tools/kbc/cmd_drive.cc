@@ -51,6 +51,7 @@ class Conversation {
     using Came = wire::LineChannel::Came;
     for (std::string line;;) {
       const Came came = channel_.read(line, waits_ms());
+      if (Interrupts::reopen()) reopen();
       if (came == Came::kLate) {
         orders_->wait(unheard_us());
         continue;
@@ -87,6 +88,10 @@ class Conversation {
   [[nodiscard]] std::int64_t unheard_us() const {
     if (!orders_->live()) return unheard_ * std::max(sim::kControlUs, static_cast<std::int64_t>(static_cast<double>(exchange_.period_s()) * 1e6));
     return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - heard_at_).count();
+  }
+  void reopen() {
+    log_.reopen();
+    if (orders_ != nullptr) orders_->reopen();
   }
   /// A robot whose lines are refused stands, like one that is silent.
   void follow_orders(bool heard) {
@@ -130,7 +135,7 @@ class Conversation {
 
 /// `missions`: those of orders; null if the knowledge base has its own missions.
 int drive(const DriveCommand& options, const OrderMissions* missions, DriveGround& ground, const Scene& scene, wire::ExchangeOptions how, Session& session) {
-  const Interrupts interrupts;
+  const Interrupts interrupts(true);
   const wire::NoPipeSignal quiet;
   DriveLog log(options.log, ground.compiled->program, session);
   if (!log.open(options.ground.file)) return kErrors;

@@ -1,14 +1,19 @@
 // kbc tidy: mends a recording so that it can be played.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "compiler/diagnostics/display.h"
+#include "compiler/source/source.h"
+#include "tools/kbc/interrupts.h"
 #include "tools/kbc/support.h"
+#include "tools/kbc/trace/excerpt.h"
+#include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/stream.h"
 #include "tools/kbc/trace/tidy.h"
 
@@ -16,9 +21,6 @@ namespace kb::cli {
 namespace {
 
 using diagnostics::Kind;
-
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
-constexpr std::size_t kMostLines = 5;   // that a message names
 
 struct TidyCommand {
   std::string file, output, clock = "drop", duplicates = "keep", last = "drop";
@@ -30,33 +32,46 @@ struct TidyCommand {
 };
 
 std::string lines_text(const trace::TidyChange& change) {
-  std::string text = fmt::format("{}: line{} ", diagnostics::counted(change.lines.size(), "row"), change.lines.size() == 1 ? "" : "s");
-  for (std::size_t i = 0; i < std::min(change.lines.size(), kMostLines); ++i) text += fmt::format("{}{}", i == 0 ? "" : ", ", change.lines[i]);
-  return text + (change.lines.size() > kMostLines ? ", ..." : "");
+  return fmt::format("{}: line{} {}{}", diagnostics::counted(change.rows, "row"), change.rows == 1 ? "" : "s", fmt::join(change.lines, ", "),
+                     change.rows > change.lines.size() ? ", ..." : "");
+}
+
+void report(const std::string& file, const trace::Tidied& tidied, Session& session) {
+  using Fault = trace::Tidied::Fault;
+  if (tidied.fault == Fault::kNoHeader) return session.report(Kind::kFactsNoHeader, {file});
+  source::Sources sources;
+  const source::Span place = trace::excerpt(sources, file, {.text = tidied.text, .number = tidied.line}, 0, 1);
+  auto messages = session.diagnostics(sources);
+  if (tidied.fault == Fault::kTooLong) messages.report(Kind::kFactsLineTooLong, place, {std::to_string(trace::LineReader::kMaxLineBytes)});
+  else if (tidied.fault == Fault::kNeeded) messages.report(Kind::kTidyNeeded, place, {});
+  else messages.report(Kind::kTidyTooFar, place, {std::to_string(trace::kMostSorted >> 20)});
 }
 
 int run(const TidyCommand& options, Session& session) {
+  std::optional<Interrupts> interrupts(std::in_place);   // so that no half of the output is left behind
+  const auto failed = [&](Kind kind, const std::string& name, const std::string& error) {
+    session.report(kind, {name, error});
+    return kErrors;
+  };
   std::string error;
-  const auto bytes = trace::read_all(options.file, kMostBytes, error);
-  if (!bytes) {
-    session.report(Kind::kCannotRead, {options.file, error.empty() ? "is too large" : error});
-    return kErrors;
-  }
+  const auto bytes = trace::open_stream(options.file, error, Interrupts::came);
+  if (!bytes) return failed(Kind::kCannotRead, options.file, error);
   if (options.file != "-") session.note_input(options.file);
-  const auto tidied = trace::tidied(*bytes, options.how());
-  if (!tidied) {
-    session.report(Kind::kFactsNoHeader, {options.file});
+  trace::OutputFile file;
+  if (!session.open_output(file, options.output.empty() ? "-" : options.output)) return kErrors;
+  if (!file.stays_beside()) interrupts.reset();
+  const trace::Tidied tidied = trace::mend(*bytes, options.how(), [&](std::string_view text) { file.write(text); });
+  if (Interrupts::came()) return kInterrupted;
+  if (!bytes->error().empty()) return failed(Kind::kCannotRead, options.file, bytes->error());
+  if (tidied.fault != trace::Tidied::Fault::kNone) {
+    report(options.file, tidied, session);
     return kErrors;
   }
-  if (tidied->needed) {
-    session.report(Kind::kTidyNeeded, {options.file, std::to_string(*tidied->needed)});
-    return kErrors;
-  }
-  for (const trace::TidyChange& change : tidied->changes) session.report(Kind::kTidyChanged, {change.what, lines_text(change)});
-  const int code = session.deliver(options.output, tidied->bytes);
-  if (code == kClean) session.remark(fmt::format("{} of {}{}{}", tidied->kept, diagnostics::counted(tidied->rows, "row"), tidied->changes.empty() ? ", as they were" : "",
-                                            tidied->timed ? "" : " (without a column `t`, so there is no clock to mend)"));
-  return code;
+  for (const trace::TidyChange& change : tidied.changes) session.report(Kind::kTidyChanged, {change.what, lines_text(change)});
+  if (!file.commit()) return failed(Kind::kCannotWrite, options.output.empty() ? "standard output" : options.output, file.error());
+  session.remark(fmt::format("{} of {}{}{}", tidied.kept, diagnostics::counted(tidied.rows, "row"), tidied.changes.empty() ? ", as they were" : "",
+                             tidied.timed ? "" : " (without a column `t`, so there is no clock to mend)"));
+  return session.exit_code();
 }
 
 }  // namespace

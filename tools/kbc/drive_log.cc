@@ -36,13 +36,13 @@ bool DriveLog::open(const std::string& knowledge) {
     if (!open(*part)) return false;
   }
   if (facts_.file == nullptr) return true;
-  std::string head = knowledge_comment(facts_.name, knowledge);
+  head_ = knowledge_comment(facts_.name, knowledge);
   {
-    sim::report::Row row(head);
+    sim::report::Row row(head_);
     row.text("t");
     for (std::size_t fact = 0; fact < program_.facts; ++fact) row.text(program_.cells[fact].name);
   }
-  facts_.file->write(head);
+  facts_.file->write(head_);
   return true;
 }
 
@@ -75,6 +75,14 @@ void DriveLog::report(const Part& part) {
   const bool is_there = file.stays_beside() && std::filesystem::exists(file.beside(), ignored);
   session_.report(Kind::kCannotWrite, {part.name, file.error() + (is_there ? fmt::format("; what came before is in `{}`", file.beside()) : std::string())});
   good_ = false;
+}
+
+void DriveLog::reopen() {
+  for (Part* part : parts_) {
+    if (part->file == nullptr || part->file->failed()) continue;
+    if (part->file->reopen()) part->file->write(part == &facts_ ? head_ : std::string());
+    if (part->file->failed()) report(*part);
+  }
 }
 
 bool DriveLog::end() {

@@ -21,7 +21,8 @@ namespace kb::cli {
 /// note [files that grow]
 /// A drive may take hours, and end when the battery does. So its files grow under temporary names, line by line, and get their names
 /// when the drive ends. Older files stay until then, and if the drive ends otherwise, the temporary files are left. A file that can no
-/// longer be written is reported at once; its contents are left, and the robot drives on.
+/// longer be written is reported at once; its contents are left, and the robot drives on. Who rotates logs sends SIGHUP: then they grow under
+/// their names, and each time are opened anew.
 class DriveLog {
  public:
   struct Names { std::string record, facts, trace; };   ///< empty: not wanted
@@ -39,6 +40,8 @@ class DriveLog {
   /// Records a line and the answer to it. A line that was not understood is kept as it came. Writes to the disk, which may be slow: call
   /// it when the answer has been sent.
   void heard(std::string_view line, std::string_view answer, bool understood);
+  /// Opens the files anew under their names. What cannot be opened is reported.
+  void reopen();
   /// Gives the files their names. False if anything could not be written (reported).
   [[nodiscard]] bool end();
 
@@ -54,6 +57,7 @@ class DriveLog {
   Session& session_;
   Part record_, facts_, trace_;
   Part* const parts_[3] = {&record_, &facts_, &trace_};
+  std::string head_;   // of the facts
   bool good_ = true;
 };
 

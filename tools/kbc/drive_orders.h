@@ -43,6 +43,8 @@ class Orders {
   [[nodiscard]] bool live() const { return link_->live(); }
   /// To be called while nothing comes, or nothing that can be understood.
   void wait(std::int64_t silent_us) { desk_->wait(silent_us), tell(); }
+  /// Opens the file of messages anew under its name.
+  void reopen() { written_.reopen(); }
   /// Takes leave of the master and gives the file of messages its name. False if it could not be written (reported).
   [[nodiscard]] bool end();
 

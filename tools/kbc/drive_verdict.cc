@@ -73,6 +73,7 @@ constexpr Blemish kBlemishes[] = {
     {"lost", lost_of},
 };
 constexpr std::string_view kMissed = "missed";
+constexpr std::size_t kShownOfWay = 20;   // at either end: a drive of hours passes thousands of exits
 
 }  // namespace
 
@@ -82,7 +83,13 @@ std::string print_summary(const sim::Summary& summary, double scale, double limi
   if (summary.outcome == sim::Summary::Outcome::kTimeUp) out += fmt::format("  limit       {:g} s; --set limit=SECONDS gives it more\n", limit_s);
   if (!summary.outputs.empty()) out += fmt::format("  outputs     {}\n", fmt::join(summary.outputs, " "));
   out += fmt::format("  time        {:.1f} s\n  length      {:.2f} m\n  way        ", summary.time_s, summary.length_m);
-  for (const std::string& exit : summary.way) out += " " + exit;
+  for (std::size_t i = 0; i < summary.way.size(); ++i) {
+    if (i == kShownOfWay && summary.way.size() > 2 * kShownOfWay) {
+      i = summary.way.size() - kShownOfWay;
+      out += fmt::format(" ... {} more ...", i - kShownOfWay);
+    }
+    out += " " + summary.way[i];
+  }
   out += fmt::format("\n  collisions  {}\n", summary.collisions.size());
   for (const Contact& hit : summary.collisions) out += print_contact(hit, scale);
   if (!summary.standing_contacts.empty()) out += fmt::format("  contacts while it stood: {}\n", summary.standing_contacts.size());

@@ -1,5 +1,6 @@
 #include "tools/kbc/interrupts.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <ctime>
@@ -9,12 +10,17 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;   // the first signal that came; 0: none
 volatile std::sig_atomic_t unseen = 0;        // whether it came and `which` has not told yet
-bool held = false;
+volatile std::sig_atomic_t hung_up = 0;       // whether a SIGHUP came that means files, and `reopen` has not told yet
+bool held = false, hangup_means_files = false;
 timespec first_came{};   // used only by the handler
 constexpr unsigned kAgain_s = 1;
 
 // `timeout` and some shells send a signal both to the program and to its group, so two signals at the same moment count as one.
 void note(int signal) {
+  if (signal == SIGHUP && hangup_means_files) {
+    hung_up = 1;
+    return;
+  }
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   if (interrupted == 0) {
@@ -35,11 +41,19 @@ void break_off_waiting(int /*signal*/) {
   if (unseen != 0) alarm(kAgain_s);
 }
 
+bool has_terminal() {
+  const int terminal = ::open("/dev/tty", O_RDONLY | O_NOCTTY | O_CLOEXEC);
+  if (terminal >= 0) ::close(terminal);
+  return terminal >= 0;
+}
+
 }  // namespace
 
-Interrupts::Interrupts() {
+Interrupts::Interrupts(bool reopens) {
   interrupted = 0;
   unseen = 0;
+  hung_up = 0;
+  hangup_means_files = reopens && !has_terminal();
   held = true;
   struct sigaction again {};
   again.sa_handler = break_off_waiting;
@@ -50,7 +64,8 @@ Interrupts::Interrupts() {
   for (std::size_t i = 0; i < std::size(kSignals); ++i) {
     sigaction(kSignals[i], &action, &old_[i]);
     const bool ignored = kSignals[i] == SIGHUP && old_[i].sa_handler == SIG_IGN;
-    if (ignored) sigaction(SIGHUP, &old_[i], nullptr);
+    if (ignored && reopens) hangup_means_files = true;
+    else if (ignored) sigaction(SIGHUP, &old_[i], nullptr);
   }
 }
 
@@ -65,6 +80,11 @@ int Interrupts::which() {
   const int signal = interrupted;
   if (signal != 0) unseen = 0;
   return signal;
+}
+bool Interrupts::reopen() {
+  if (hung_up == 0) return false;
+  hung_up = 0;
+  return true;
 }
 bool Interrupts::are_held() { return held; }
 

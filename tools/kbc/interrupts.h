@@ -7,17 +7,20 @@
 namespace kb::cli {
 
 /// While an object of this class lives, SIGINT, SIGTERM and SIGHUP (the terminal was closed; not under nohup) request an orderly end. A
-/// second signal, at least 0.3 s later, ends the program. Only one object may live at a time. Until `which` has told of the signal, each
+/// second signal, at least 0.3 s later, ends the program. With `reopens`, SIGHUP requests that files be opened anew instead, unless the process has
+/// a terminal that can be closed (and no nohup). Only one object may live at a time. Until `which` has told of the signal, each
 /// second a call that waits in the main thread is broken off with EINTR (by SIGALRM). So no wait outlasts the request.
 class Interrupts {
  public:
-  Interrupts();
+  explicit Interrupts(bool reopens = false);
   ~Interrupts();
   Interrupts(const Interrupts&) = delete;
   Interrupts& operator=(const Interrupts&) = delete;
   /// The first signal that came; 0: none. Any thread may ask.
   [[nodiscard]] static int which();
   [[nodiscard]] static bool came() { return which() != 0; }
+  /// Whether files are to be opened anew: once for each time.
+  [[nodiscard]] static bool reopen();
   /// Whether an object lives.
   [[nodiscard]] static bool are_held();
 

@@ -126,13 +126,13 @@ TEST(FactsCsv, gives_no_row_after_a_wrong_one) {
   EXPECT_EQ(reading.rows().size(), 1u);
 }
 
-TEST(FactsCsv, wants_times_that_do_not_go_back_and_steps_that_a_clock_can_count) {
+TEST(FactsCsv, wants_times_that_do_not_go_back_and_warns_of_steps_that_no_clock_can_count) {
   EXPECT_EQ(
       complaints_of("t,Line\n0,1\n0.1,1\n0.1,1\n0.05,1\n,1\nnan,1\n9000,1\n"),
       (Lines{"KB0936 5:1-5 time 0.05 s comes before 0.1 s, the row before",
              "KB0934 6:1-2 this row has no time; where the header has `t`, every row has one",
              "KB0935 7:1-4 `nan` is not a time in seconds",
-             "KB0937 8:1-5 8999.95 s lie between this row and the one before; a tick takes at most 4294.967295 s"}));
+             "KB0969 8:1-5 8999.95 s lie between this row and the one before; the clock of the mind counts at most 4294.967295 s at once"}));
 }
 
 TEST(FactsCsv, refuses_two_ways_to_say_how_long_ticks_are) {

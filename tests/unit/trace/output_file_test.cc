@@ -68,6 +68,26 @@ TEST_F(OutputFileTest, of_several_all_are_moved_or_none) {
   EXPECT_EQ(files(), 3u) << "another name of an old file was left";
 }
 
+TEST_F(OutputFileTest, grows_on_under_its_name_wherever_it_was_moved) {
+  for (const bool by_its_temporary_name : {false, true}) {
+    make("log", "old");
+    OutputFile file;
+    ASSERT_TRUE(file.open(path("log")));
+    file.write("a");
+    if (by_its_temporary_name) fs::rename(file.beside(), path("log.1"));
+    bool is_new = file.reopen();
+    EXPECT_EQ(is_new, by_its_temporary_name);
+    if (!is_new) fs::rename(path("log"), path("log.1")), is_new = file.reopen();
+    EXPECT_TRUE(is_new);
+    file.write("b");
+    EXPECT_FALSE(file.reopen()) << "nobody has moved it away";
+    file.write("c");
+    ASSERT_TRUE(file.commit());
+    EXPECT_EQ(read(path("log.1")) + ", " + read(path("log")), "a, bc");
+  }
+  EXPECT_EQ(files(), 2u);
+}
+
 TEST_F(OutputFileTest, that_is_given_up_leaves_no_trace) {
   make("a.h", "old");
   {

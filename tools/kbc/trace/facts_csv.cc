@@ -287,20 +287,21 @@ bool FactsReader::take_time(const Field& field, const LineReader::Line& line) {
   left_us_ = 0;
   if (row_before_ == 0) return true;
   const std::int64_t most_us = options_.every_us ? std::min(kMaxFilledUs, kMaxFilledTicks * *options_.every_us) : kMaxStepUs;
-  if (step_us >= 0 && step_us <= most_us) {
-    left_us_ = step_us;
-    return true;
-  }
+  left_us_ = std::clamp<std::int64_t>(step_us, 0, most_us);
+  if (left_us_ == step_us) return true;
   const std::string line_before = fmt::format("{}", row_before_);
   if (step_us < 0) {
     report(Kind::kFactsTimeOrder, line, mark, {source::printable(field.text), seconds(before_us)})
         .note(Kind::kFactsRowBefore, {}, {line_before})
         .note(Kind::kFactsTidy, {}, {path_});
-  } else {
-    report(Kind::kFactsStepTooLong, line, mark, {seconds(step_us), options_.every_us ? "`# every` fills" : "a tick takes", seconds(most_us)})
+    return false;
+  }
+  const bool fatal = options_.every_us.has_value();   // else it counts as it does on a robot that is not switched off meanwhile
+  if (fatal || !diagnostics_.full(Kind::kFactsLongPause)) {
+    report(fatal ? Kind::kFactsStepTooLong : Kind::kFactsLongPause, line, mark, {seconds(step_us), seconds(most_us)})
         .note(Kind::kFactsRowBefore, {}, {line_before});
   }
-  return false;
+  return !fatal;
 }
 
 }  // namespace kb::trace

@@ -121,11 +121,26 @@ bool OutputFile::flush() {
   return !failed();
 }
 
+bool OutputFile::reopen() {
+  const bool beside = !temporary_.empty();
+  if (!(beside || moved_) || !flush()) return false;
+  const bool moves = beside && ::rename(temporary_.c_str(), target_.c_str()) == 0;
+  if (beside && !moves && errno != ENOENT) return fail(errno);   // else somebody has moved it by that name
+  temporary_.clear();
+  moved_ = true;
+  if (moves) return false;
+  const int file = ::open(target_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (beside ? O_TRUNC : 0), 0666);
+  if (file < 0) return fail(errno);
+  ::close(std::exchange(file_, file));
+  struct ::stat about {};
+  return ::fstat(file, &about) == 0 && about.st_size == 0;
+}
+
 bool OutputFile::stage() {
   if (staged_ || file_ < 0) return staged_ && !failed();
   staged_ = true;
   flush();
-  if (!temporary_.empty() && !failed() && ::fsync(file_) != 0) fail(errno);
+  if ((!temporary_.empty() || moved_) && !failed() && ::fsync(file_) != 0) fail(errno);
   const int file = std::exchange(file_, -1);
   if (file > STDERR_FILENO && ::close(file) != 0) fail(errno);
   return !failed();

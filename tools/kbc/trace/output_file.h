@@ -37,6 +37,9 @@ class OutputFile {
   bool flush();
   /// Leaves what is not committed `beside` instead of removing it: part of a file that grew for hours is worth keeping.
   void keep() { keep_ = true; }
+  /// For a file that others move away while it grows: from now on it grows under its own name, which is opened anew. Until the first call that
+  /// is a move of what was written. Does nothing to a pipe. True if the file is empty now.
+  bool reopen();
   /// The temporary name, until it is committed.
   [[nodiscard]] const std::string& beside() const { return temporary_; }
   /// Brings everything to disk, not yet under its name. False if any write failed (a full disk); `error` says why.

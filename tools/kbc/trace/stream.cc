@@ -32,15 +32,14 @@ class FileStream final : public ByteStream {
 
   std::size_t read(char* to, std::size_t size) override {
     if (waits_ && before_read) before_read();
-    for (;;) {
+    while (stop_ == nullptr || !stop_()) {
       const ::ssize_t got = ::read(file_, to, size);
       if (got >= 0) return static_cast<std::size_t>(got);
-      if (errno == EINTR && stop_ != nullptr && stop_()) return 0;
-      if (errno != EINTR) {
-        error_ = reason(errno);
-        return 0;
-      }
+      if (errno == EINTR) continue;
+      error_ = reason(errno);
+      break;
     }
+    return 0;
   }
   [[nodiscard]] std::string error() const override { return error_; }
 
@@ -122,6 +121,7 @@ std::optional<LineReader::Line> LineReader::next() {
     begin = buffer_.data() + begin_;  // `fill` may have moved it
     begin_ += size + (whole ? 1 : 0);
     line.text = {begin, size};
+    line.bytes = {begin, size + (whole ? 1 : 0)};
     if (line.text.ends_with('\r')) line.text.remove_suffix(1);
     if (number_ == 1 && line.text.starts_with(source::kByteOrderMark)) line.text.remove_prefix(source::kByteOrderMark.size());
     if (line.text.size() > kMaxLineBytes) {

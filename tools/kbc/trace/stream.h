@@ -25,8 +25,8 @@ class ByteStream {
   std::function<void()> before_read;
 };
 
-/// The file at `path`, or standard input for "-". Null if it cannot be opened; `error` then says why. If `stop` returns true after a
-/// signal, the stream ends as at its regular end.
+/// The file at `path`, or standard input for "-". Null if it cannot be opened; `error` then says why. Once `stop` returns true,
+/// the stream ends as at its regular end.
 [[nodiscard]] std::unique_ptr<ByteStream> open_stream(const std::string& path, std::string& error, bool (*stop)() = nullptr);
 
 /// All bytes of the file at `path`, or of standard input for "-". Nothing if it cannot be read (`error` says why) or holds more than
@@ -58,6 +58,7 @@ class LineReader {
     std::uint64_t number = 0;  ///< the first line is 1
     bool ended = true;         ///< it has a line end: only the last may lack it
     bool too_long = false;     ///< over the limit: `text` is its beginning, and no further line can be read
+    std::string_view bytes = {};   ///< `text` as it came, with its line break, and the byte-order mark before the first
   };
   /// The next line, or nothing at the end of the stream. Amortised O(bytes).
   [[nodiscard]] std::optional<Line> next();

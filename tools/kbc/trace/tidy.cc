@@ -2,27 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "compiler/program/text.h"
-#include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
 #include "tools/kbc/json/json.h"
 #include "tools/kbc/trace/csv_fields.h"
 #include "tools/kbc/trace/facts_options.h"
-#include "tools/kbc/trace/stream.h"
 
 namespace kb::trace {
 namespace {
 
 struct Row {
-  std::string_view text, end;           // without its line end, and that
-  std::string_view before;              // the comments and blank lines before it
+  std::string before;                   // the comments and blank lines before it
+  std::string bytes;                    // with a line end; empty if it is left out
   std::uint64_t line = 0;
-  std::optional<std::int64_t> t_us;
+  bool whole = true;                    // with a line end of its own, and all its fields
+  std::optional<std::int64_t> t_us = {};
   std::size_t t_begin = 0, t_end = 0;   // the bytes of the time
-  bool whole = true;                    // with a line end, and all its fields
-  bool kept = true;
 };
 
 std::optional<std::int64_t> microseconds(double time_s) {
@@ -46,10 +45,10 @@ Header read_header(std::string_view line) {
   return header;
 }
 
-void read_csv(const Header& header, Row& row) {
+void read_csv(const Header& header, std::string_view text, Row& row) {
   std::string scratch;
   std::size_t count = 0;
-  for (FieldCursor fields(row.text, scratch); fields.more(); ++count) {
+  for (FieldCursor fields(text, scratch); fields.more(); ++count) {
     const Field field = fields.next();
     row.whole = row.whole && field.fault == Field::Fault::kNone;
     if (!header.timed || count != header.time) continue;
@@ -60,9 +59,9 @@ void read_csv(const Header& header, Row& row) {
   row.whole = row.whole && count == header.columns;
 }
 
-void read_json(Row& row) {
+void read_json(std::string_view text, Row& row) {
   json::Fault fault;
-  const auto object = json::parse(row.text, source::FileId::kNone, fault);
+  const auto object = json::parse(text, source::FileId::kNone, fault);
   row.whole = row.whole && object.has_value();
   if (!object) return;
   for (std::size_t i = 0; i < object->keys.size(); ++i) {
@@ -75,147 +74,143 @@ void read_json(Row& row) {
 
 class Tidier {
  public:
-  explicit Tidier(const TidyOptions& options) : options_(options) {}
-
-  /// The bytes must outlive it.
-  bool read(std::string_view bytes) {
-    std::size_t before = 0;   // where the comments begin that stand before the next row
-    std::uint64_t number = 0;
-    for (std::size_t at = bytes.starts_with(source::kByteOrderMark) ? source::kByteOrderMark.size() : 0; at < bytes.size();) {
-      const std::size_t begin = at, feed = std::min(bytes.find('\n', at), bytes.size());
-      at = std::min(feed + 1, bytes.size());
-      const std::size_t size = feed - begin - (feed > begin && bytes[feed - 1] == '\r' ? 1 : 0);
-      const std::string_view text = bytes.substr(begin, size), end = bytes.substr(begin + size, at - begin - size);
-      if (number++ == 0 && end.size() == 2) line_end_ = end;
-      const std::size_t first = text.find_first_not_of(" \t");
-      if (size > LineReader::kMaxLineBytes) return false;
-      if (first == std::string_view::npos || text[first] == '#') {
-        if (!begun_ && first != std::string_view::npos) read_option_comment(text, said_);
-        continue;
-      }
-      if (!begun_ && text[first] != '{') {
-        head_ = bytes.substr(0, at);
-        header_ = read_header(text);
-      } else {
-        json_ = json_ || !begun_;
-        Row row{text, end, bytes.substr(before, begin - before), number, std::nullopt, 0, 0, feed < bytes.size()};
-        if (json_) read_json(row);
-        else read_csv(header_, row);
-        rows_.push_back(row);
-      }
-      begun_ = true;
-      before = at;
+  Tidier(const TidyOptions& options, const std::function<void(std::string_view)>& write) : options_(options), write_(write) {
+    for (const std::string_view what : {"half written, at the end: left out", "the same as the row before: left out", "earlier than a row before it: left out",
+                                        "earlier than a row before it: put where its time belongs", "made later"}) {
+      out_.changes.push_back({what, 0, {}});
     }
-    tail_ = bytes.substr(before);
-    out_.rows = rows_.size();
-    out_.timed = json_ || header_.timed;
-    return begun_;
   }
 
-  Tidied mend() {
-    if (options_.drop_last && !rows_.empty() && !rows_.back().whole) drop(rows_.back(), "half written, at the end: left out");
-    if (options_.drop_duplicates) drop_duplicates();
-    using Clock = TidyOptions::Clock;
-    if (options_.clock == Clock::kDrop) drop_earlier();
-    else if (options_.clock == Clock::kSort) sort();
-    out_.bytes = head_;
-    std::int64_t before_us = 0, step_us = 0, shift_us = 0;
-    bool timed = false;
-    for (const Row& row : rows_) {
-      out_.bytes += row.before;
-      if (!row.kept) continue;
-      ++out_.kept;
-      if (row.t_us && options_.clock == Clock::kShift) {
-        if (timed && goes_back(*row.t_us + shift_us, before_us)) shift_us = before_us + std::max<std::int64_t>(step_us, json_ ? 1 : 0) - *row.t_us;
-        const std::int64_t now_us = *row.t_us + shift_us;
-        if (timed) step_us = now_us - before_us;
-        before_us = now_us;
-        timed = true;
-      }
-      write(row, shift_us);
-    }
-    out_.bytes += tail_;
+  Tidied mend(ByteStream& bytes) {
+    LineReader lines(bytes);
+    for (auto line = lines.next(); line && out_.fault == Tidied::Fault::kNone; line = lines.next()) take(*line);
+    if (!begun_) fail(Tidied::Fault::kNoHeader, LineReader::Line());
+    if (half_) drop(*half_, kHalf), pass(*std::exchange(half_, {}));
+    for (; !sorted_.empty(); sorted_.erase(sorted_.begin())) put(sorted_.begin()->second);
+    write_(before_);
+    std::erase_if(out_.changes, [](const TidyChange& change) { return change.rows == 0; });
+    out_.timed = json_ || header_.timed;
     return std::move(out_);
   }
 
  private:
-  [[nodiscard]] bool goes_back(std::int64_t t_us, std::int64_t before_us) const { return json_ ? t_us <= before_us : t_us < before_us; }
+  using Clock = TidyOptions::Clock;
+  enum Change : std::uint8_t { kHalf, kSame, kEarlier, kPlaced, kLater };   // of `out_.changes`
 
-  void note(std::string_view what, std::uint64_t line) {
-    auto& changes = out_.changes;
-    auto change = std::find_if(changes.begin(), changes.end(), [&](const TidyChange& one) { return one.what == what; });
-    if (change == changes.end()) change = changes.insert(change, {std::string(what), {}});
-    change->lines.push_back(line);
+  void fail(Tidied::Fault fault, const LineReader::Line& line) {
+    if (out_.fault == Tidied::Fault::kNone) out_.fault = fault, out_.line = line.number, out_.text = line.text;
   }
+  void fail(Tidied::Fault fault, const Row& row) { fail(fault, {.text = std::string_view(row.bytes).substr(0, row.bytes.find_last_not_of("\r\n") + 1), .number = row.line}); }
 
-  void drop(Row& row, std::string_view why) {
-    note(why, row.line);
-    row.kept = false;
-  }
-  /// A row that is left out for its time, or put elsewhere, changes what the empty fields of others mean.
-  void leaves(const Row& row) {
-    if (said_.steady.value_or(false) && !out_.needed) out_.needed = row.line;
-  }
-
-  void drop_duplicates() {
-    const Row* last = nullptr;
-    for (Row& row : rows_) {
-      if (last != nullptr && last->text == row.text) drop(row, "the same as the row before: left out");
-      else last = &row;
+  void take(const LineReader::Line& line) {
+    if (line.too_long) return fail(Tidied::Fault::kTooLong, line);
+    const std::size_t mark = static_cast<std::size_t>(line.text.data() - line.bytes.data()), first = line.text.find_first_not_of(" \t");
+    const std::string_view bytes = line.bytes.substr(mark);
+    if (line.number == 1) {
+      write_(line.bytes.substr(0, mark));
+      if (bytes.ends_with("\r\n")) line_end_ = "\r\n";
     }
-  }
-
-  void drop_earlier() {
-    std::optional<std::int64_t> before_us;
-    for (Row& row : rows_) {
-      if (!row.kept || !row.t_us) continue;
-      if (before_us && goes_back(*row.t_us, *before_us)) {
-        leaves(row);
-        drop(row, "earlier than a row before it: left out");
-      } else {
-        before_us = row.t_us;
-      }
-    }
-  }
-
-  void sort() {
-    std::optional<std::int64_t> before_us;
-    for (Row& row : rows_) {
-      if (!row.kept || !row.t_us) row.t_us = before_us;   // it stays behind the row that it stands behind
-      else if (before_us && *row.t_us < *before_us) leaves(row), note("earlier than a row before it: put where its time belongs", row.line);
-      before_us = std::max(before_us, row.t_us);
-    }
-    std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.t_us < b.t_us; });
-  }
-
-  void write(const Row& row, std::int64_t shift_us) {
-    const bool moves = shift_us != 0 && row.t_us.has_value();
-    if (moves) {
-      note("made later", row.line);
-      out_.bytes += row.text.substr(0, row.t_begin);
-      program::append_seconds(out_.bytes, *row.t_us + shift_us);
-      out_.bytes += row.text.substr(row.t_end);
+    if (first == std::string_view::npos || line.text[first] == '#') {
+      if (!begun_ && first != std::string_view::npos) read_option_comment(line.text, said_);
+      before_ += bytes;
+    } else if (!std::exchange(begun_, true) && !(json_ = line.text[first] == '{')) {
+      header_ = read_header(line.text);
+      write_(std::exchange(before_, {}));
+      write_(bytes);
     } else {
-      out_.bytes += row.text;
+      take_row(line, bytes);
     }
-    out_.bytes += row.end.empty() ? line_end_ : row.end;
+  }
+
+  void take_row(const LineReader::Line& line, std::string_view bytes) {
+    if (half_) pass(*std::exchange(half_, {}));
+    Row row{std::exchange(before_, {}), std::string(line.ended ? bytes : line.text), line.number, line.ended};
+    if (!line.ended) row.bytes += line_end_;
+    if (json_) read_json(line.text, row);
+    else read_csv(header_, line.text, row);
+    ++out_.rows;
+    if (row.whole || !options_.drop_last) pass(std::move(row));
+    else half_ = std::move(row);   // until it is known whether it is the last
+  }
+
+  /// All rows come here in the order of their lines.
+  void pass(Row row) {
+    if (options_.drop_duplicates && !row.bytes.empty()) {
+      if (row.bytes == last_) drop(row, kSame);
+      else last_ = row.bytes;
+    }
+    if (row.t_us && !row.bytes.empty()) mend_clock(row);
+    if (options_.clock == Clock::kSort) sort(std::move(row));
+    else put(row);
+  }
+
+  void mend_clock(Row& row) {
+    const std::int64_t t_us = *row.t_us + shift_us_;
+    const std::int64_t least_us = before_us_.value_or(t_us) + (before_us_ && json_ && options_.clock != Clock::kSort ? 1 : 0);
+    const bool back = t_us < least_us;
+    if (back && options_.clock == Clock::kShift) {
+      shift_us_ += std::max(*before_us_ + step_us_, least_us) - t_us;
+    } else if (back) {
+      if (said_.steady.value_or(false)) fail(Tidied::Fault::kNeeded, row);
+      if (options_.clock == Clock::kDrop) return drop(row, kEarlier);
+      return note(kPlaced, row.line);
+    }
+    const std::int64_t now_us = *row.t_us + shift_us_;
+    if (before_us_) step_us_ = now_us - *before_us_;
+    before_us_ = now_us;
+    if (shift_us_ == 0) return;
+    note(kLater, row.line);
+    std::string later;
+    program::append_seconds(later, now_us);
+    row.bytes.replace(row.t_begin, row.t_end - row.t_begin, later);
+  }
+
+  void sort(Row row) {
+    if (!row.t_us || row.bytes.empty()) row.t_us = before_us_;   // it stays behind the row that it stands behind
+    if (sorted_up_to_us_ && row.t_us < sorted_up_to_us_) return fail(Tidied::Fault::kTooFar, row);
+    const auto size = [](const Row& one) { return sizeof one + one.before.size() + one.bytes.size(); };
+    held_ += size(row);
+    sorted_.emplace_hint(sorted_.end(), row.t_us, std::move(row));
+    for (; held_ > kMostSorted; sorted_.erase(sorted_.begin())) {
+      const Row& first = sorted_.begin()->second;
+      put(first);
+      held_ -= size(first);
+      sorted_up_to_us_ = first.t_us;
+    }
+  }
+
+  void put(const Row& row) {
+    write_(row.before);
+    write_(row.bytes);
+    out_.kept += row.bytes.empty() ? 0 : 1;
+  }
+
+  void note(Change what, std::uint64_t line) {
+    TidyChange& change = out_.changes[what];
+    if (++change.rows <= TidyChange::kMostLines) change.lines.push_back(line);
+  }
+  void drop(Row& row, Change why) {
+    note(why, row.line);
+    row.bytes.clear();
   }
 
   TidyOptions options_;
+  const std::function<void(std::string_view)>& write_;
   Tidied out_;
-  std::string_view head_, tail_;
-  std::string_view line_end_ = "\n";
   FactsOptions said_;
   Header header_;
-  std::vector<Row> rows_;
+  std::string_view line_end_ = "\n";
+  std::string before_, last_;   // what stands before the next row; the row before
+  std::optional<Row> half_;
+  std::optional<std::int64_t> before_us_, sorted_up_to_us_;
+  std::int64_t step_us_ = 0, shift_us_ = 0;
+  std::multimap<std::optional<std::int64_t>, Row> sorted_;
+  std::size_t held_ = 0;
   bool json_ = false, begun_ = false;
 };
 
 }  // namespace
 
-std::optional<Tidied> tidied(std::string_view bytes, const TidyOptions& options) {
-  Tidier tidier(options);
-  return tidier.read(bytes) ? std::optional(tidier.mend()) : std::nullopt;
-}
+Tidied mend(ByteStream& bytes, const TidyOptions& options, const std::function<void(std::string_view)>& write) { return Tidier(options, write).mend(bytes); }
 
 }  // namespace kb::trace

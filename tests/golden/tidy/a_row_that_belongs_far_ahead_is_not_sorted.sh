@@ -1,0 +1,1 @@
+# RUN: long=$(head -c 100000 /dev/zero | tr '\0' 1); { echo t,A; for i in {1..360}; do echo "$i,$long"; done; echo '2,0'; } > %t/drive.csv; kbc tidy --clock sort %t/drive.csv -o %t/whole.csv; ls %t; kbc tidy --clock shift %t/drive.csv | tail -1

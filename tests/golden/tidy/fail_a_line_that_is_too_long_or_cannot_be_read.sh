@@ -1,0 +1,1 @@
+# RUN: { printf 't,A\n0,1\n1,'; head -c 1100000 /dev/zero | tr '\0' 1; } > %t/drive.csv; cp %t/drive.csv %t/whole.csv; kbc tidy %t/drive.csv -o %t/whole.csv; cmp %t/drive.csv %t/whole.csv && ls %t; kbc tidy %t
