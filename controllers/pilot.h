@@ -221,7 +221,7 @@ class Pilot {
   [[nodiscard]] Task task(const Senses& senses) noexcept {
     const Id id = controller_.id();
     if (is_manoeuvre(id)) return across(senses);
-    if (id == Id::kTurnRound) return round();
+    if (id == Id::kTurnRound) return turned_round();
     if (id == Id::kRoundObstacle) {
       if (in_crossing() || place_.road() == nullptr) return {};
       turn_back_if_leg_does();
@@ -274,7 +274,7 @@ class Pilot {
     return unknown;
   }
   /// To face back along the road, or along it if the robot faces back already; near a bend, and if the line gives another angle, by the angle.
-  [[nodiscard]] Task round() const noexcept {
+  [[nodiscard]] Task turned_round() const noexcept {
     Task task;
     const ControlArgument* angle = find_argument(*running_, "angle");
     if (angle != nullptr && angle->number != 180.0f) return task;

@@ -67,7 +67,7 @@
 #define slots
 
 #include <waymark/controllers/any_controller.h>
-#include <waymark/controllers/pilot.h>
+#include <waymark/controllers/lookout.h>
 #include <waymark/runtime/compact_mind.h>
 #include <waymark/runtime/image_mind.h>
 #include "pace.kb.h"
