@@ -54,6 +54,7 @@ class Conversation {
       if (Interrupts::reopen()) reopen();
       if (came == Came::kLate) {
         orders_->wait(unheard_us());
+        orders_->keep();
         continue;
       }
       if (came == Came::kStopped) return interrupted();
@@ -75,6 +76,7 @@ class Conversation {
       if (went != Came::kLine) return session_.exit_code();
       if (orders_ != nullptr) follow_orders(exchange_.line().has_value());
       log_.heard(line, answer, !exchange_.mistake());
+      if (orders_ != nullptr) orders_->keep();
     }
   }
 

@@ -174,12 +174,22 @@ void Orders::tell() {
   for (std::string news = link_->news(); !news.empty(); news = link_->news()) session_.remark(from_ + ": " + news);
 }
 
+void Orders::report() {
+  session_.report(Kind::kCannotWrite, {messages_, written_.error()});
+  good_ = false;
+}
+
+void Orders::keep() {
+  if (messages_.empty() || !good_) return;
+  written_.keep();
+  if (!written_.flush()) report();
+}
+
 bool Orders::end() {
   desk_->leave();
   tell();
-  if (messages_.empty() || written_.commit()) return true;
-  session_.report(Kind::kCannotWrite, {messages_, written_.error()});
-  return false;
+  if (!messages_.empty() && good_ && !written_.commit()) report();
+  return good_;
 }
 
 }  // namespace kb::cli

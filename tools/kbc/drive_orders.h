@@ -43,6 +43,8 @@ class Orders {
   [[nodiscard]] bool live() const { return link_->live(); }
   /// To be called while nothing comes, or nothing that can be understood.
   void wait(std::int64_t silent_us) { desk_->wait(silent_us), tell(); }
+  /// Writes what passed to disk; see note [files that grow].
+  void keep();
   /// Opens the file of messages anew under its name.
   void reopen() { written_.reopen(); }
   /// Takes leave of the master and gives the file of messages its name. False if it could not be written (reported).
@@ -51,6 +53,7 @@ class Orders {
  private:
   Orders(std::string from, Session& session) : session_(session), from_(std::move(from)) {}
   void tell();
+  void report();
 
   Session& session_;
   std::string from_, messages_;   // the broker or file that orders come from; the file that messages are written to
@@ -59,6 +62,7 @@ class Orders {
   std::optional<vda5050::Vehicle> vehicle_;
   std::unique_ptr<vda5050::Link> link_;
   std::optional<OrderDesk> desk_;
+  bool good_ = true;   // the file of messages could be written so far
 };
 
 }  // namespace kb::cli
