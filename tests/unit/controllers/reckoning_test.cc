@@ -92,6 +92,25 @@ TEST(Reckoning, CountsBackwardsAndNotAPlaceThatTremblesOrLeaps) {
   EXPECT_NEAR(reckoning.at.x_m - stood, 0.3f, 0.01f);
 }
 
+TEST(Reckoning, ALoopThatIsVeryLateLosesNoWayEither) {
+  Reckoning reckoning;
+  reckoning.start(at(0.0f, 0.0f, 1.0f), {});
+  reckoning.step(at(0.02f, 0.0f, 1.0f), 0.02f);
+  reckoning.step(at(2.52f, 0.0f, 1.0f), 0.5f);   // the longest period that is told, and a longer one that was
+  EXPECT_NEAR(reckoning.at.x_m, 2.52f, 1e-3f);
+}
+
+TEST(Reckoning, CorrectionsTurnTheCompassByFifteenDegreesAtMost) {
+  Senses senses = at(0.0f, 0.0f, 0.0f);
+  senses.heading_known = true;
+  senses.heading_rad = 0.0f;
+  Reckoning reckoning;
+  reckoning.start(senses, {});
+  for (int i = 0; i < 10; ++i) reckoning.correct_heading(3.0f * kRadPerDeg);
+  for (int i = 0; i < 500; ++i) reckoning.step(senses, 0.02f);
+  EXPECT_NEAR(reckoning.at.heading_rad, 15.0f * kRadPerDeg, 1e-3f);
+}
+
 TEST(Reckoning, WhatWasDrivenWhileOdometryWasSilentIsNotKnown) {
   Reckoning reckoning;
   reckoning.start(at(0.0f, 0.0f, 0.3f), {});

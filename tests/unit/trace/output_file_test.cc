@@ -70,22 +70,51 @@ TEST_F(OutputFileTest, of_several_all_are_moved_or_none) {
 
 TEST_F(OutputFileTest, grows_on_under_its_name_wherever_it_was_moved) {
   for (const bool by_its_temporary_name : {false, true}) {
+    std::string refused;
     make("log", "old");
     OutputFile file;
     ASSERT_TRUE(file.open(path("log")));
     file.write("a");
     if (by_its_temporary_name) fs::rename(file.beside(), path("log.1"));
-    bool is_new = file.reopen();
+    bool is_new = file.reopen(refused);
     EXPECT_EQ(is_new, by_its_temporary_name);
-    if (!is_new) fs::rename(path("log"), path("log.1")), is_new = file.reopen();
+    if (!is_new) fs::rename(path("log"), path("log.1")), is_new = file.reopen(refused);
     EXPECT_TRUE(is_new);
     file.write("b");
-    EXPECT_FALSE(file.reopen()) << "nobody has moved it away";
+    EXPECT_FALSE(file.reopen(refused)) << "nobody has moved it away";
     file.write("c");
     ASSERT_TRUE(file.commit());
     EXPECT_EQ(read(path("log.1")) + ", " + read(path("log")), "a, bc");
   }
   EXPECT_EQ(files(), 2u);
+}
+
+TEST_F(OutputFileTest, goes_on_growing_where_it_was_if_its_name_cannot_be_opened) {
+  fs::permissions(make("log", "old"), fs::perms::owner_read | fs::perms::owner_write);
+  OutputFile file;
+  ASSERT_TRUE(file.open(path("log")));
+  std::string refused;
+  const auto is_refused = [&] { return !file.reopen(refused) && !std::exchange(refused, "").empty(); };
+  const auto stands_in_the_way = [&] { return fs::remove(path("log")), fs::create_directory(path("log")); };
+  ASSERT_TRUE(stands_in_the_way());
+  file.write("a");
+  EXPECT_TRUE(is_refused());
+  file.write("b");
+  fs::remove(path("log"));
+  EXPECT_FALSE(file.reopen(refused));   // the move
+  fs::rename(path("log"), path("log.1"));
+  ASSERT_EQ(::mkfifo(path("log").c_str(), 0600), 0);
+  EXPECT_TRUE(is_refused()) << "a pipe without a reader would be waited for";
+  file.write("c");
+  ASSERT_TRUE(stands_in_the_way());
+  EXPECT_TRUE(is_refused());
+  file.write("d");
+  fs::remove(path("log"));
+  EXPECT_TRUE(file.reopen(refused));
+  file.write("e");
+  ASSERT_TRUE(file.commit());
+  EXPECT_EQ(read(path("log.1")) + ", " + read(path("log")), "abcd, e");
+  EXPECT_EQ(fs::status(path("log")).permissions(), fs::status(path("log.1")).permissions());
 }
 
 TEST_F(OutputFileTest, that_is_given_up_leaves_no_trace) {

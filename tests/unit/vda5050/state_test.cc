@@ -159,6 +159,9 @@ TEST_F(Yard, ABatteryThatNobodyKnowsCountsAsFull) {
   condition.battery_percent = 42.5;
   look(30);
   EXPECT_EQ(state["batteryState"]["batteryCharge"], 42.5);
+  condition.battery_percent = 104.0;
+  look(30);
+  EXPECT_EQ(state["batteryState"]["batteryCharge"], 100.0) << "more than full is full";
   EXPECT_TRUE(state["information"].empty());
 }
 

@@ -1,0 +1,1 @@
+# RUN: kbc import lif %d/plant.json -o %t/a.kb

@@ -1,0 +1,1 @@
+# RUN: kbc import nav2 %d/graph.geojson
