@@ -1,6 +1,7 @@
 #include "compiler/analysis/conflict_findings.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -17,7 +18,7 @@ using program::Rule;
 using program::RuleId;
 
 constexpr std::size_t kMostTold = 5;    // pairs of one level about one thing
-constexpr std::size_t kMostNamed = 3;   // rules of the others
+constexpr std::size_t kMostNamed = 3;   // rules and cells of the others
 
 class ConflictReports {
  public:
@@ -53,6 +54,15 @@ class ConflictReports {
     return group != program::kNoGroup ? group : static_cast<std::uint32_t>(program_.exclusive.size() + program::index(cell));
   }
 
+  /// A member of a group by the name of the group.
+  [[nodiscard]] std::string_view declared(CellId cell) const {
+    const std::string_view name = program_[cell].name;
+    return subject_.group_of[program::index(cell)] == program::kNoGroup ? name : model::declared_name(name);
+  }
+  [[nodiscard]] static std::string some(std::span<const std::string_view> names) {
+    return diagnostics::in_a_row(names.first(std::min(names.size(), kMostNamed))) + (names.size() > kMostNamed ? ", ..." : "");
+  }
+
   void report(const Finding& finding, const std::vector<const Finding*>& others) {
     const std::string_view a = program_[finding.first].name, b = program_[finding.second].name;
     const std::string& level = program_.levels[here(finding).level];
@@ -69,18 +79,20 @@ class ConflictReports {
   }
 
   void note_others(const std::vector<const Finding*>& others, diagnostics::Builder& message) const {
-    std::set<RuleId> rules;
-    std::vector<std::string_view> names;
+    std::vector<std::string_view> rules, cells;
+    const auto add = [](std::vector<std::string_view>& names, std::string_view name) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    };
     for (const Finding* finding : others) {
-      for (const RuleId rule : {finding->first, finding->second}) {
-        if (rules.insert(rule).second && names.size() < kMostNamed) names.push_back(program_[rule].name);
+      for (const RuleId rule : {finding->first, finding->second}) add(rules, program_[rule].name);
+      for (const CellId cell : {finding->about.cell, finding->about.other}) {
+        if (cell != CellId::kNone) add(cells, declared(cell));
       }
     }
-    const CellId cell = others.front()->about.cell;
-    const bool alone = subject_.group_of[program::index(cell)] == program::kNoGroup;
-    const std::string_view name = alone ? std::string_view(program_[cell].name) : model::declared_name(program_[cell].name);
-    message.note(Kind::kOthersDisagree, {}, {diagnostics::counted(others.size(), "more pair"), diagnostics::counted(rules.size(), "rule"), name,
-                                             diagnostics::in_a_row(names), rules.size() > names.size() ? ", ..." : ""});
+    const std::string_view one = cells.front();
+    message.note(Kind::kOthersDisagree, {}, {diagnostics::counted(others.size(), "more pair"),
+                                             diagnostics::counted(rules.size(), "rule") + (others.size() == 1 ? " disagrees" : " disagree"), some(cells), some(rules),
+                                             one, cells.size() == 1 ? std::string("it") : diagnostics::quoted_code(one)});
   }
 
   const Subject& subject_;

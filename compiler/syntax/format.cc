@@ -21,6 +21,7 @@ using T = TokenKind;
 constexpr std::uint32_t kIndent = 4;
 constexpr std::uint16_t kFarthestArrow = 60;
 constexpr std::size_t kWidestRule = 120;   // on one line
+constexpr std::uint16_t kFarthestAt = 30, kFarthestWhen = 45, kFarthestThen = 90;   // in such rules
 constexpr std::uint16_t kFarthestAttribute = 40;   // a column behind a longer list would move the others too far away
 
 // Whether a blank stands between two neighbours on a line. A sign stands right before what it belongs to.
@@ -356,7 +357,7 @@ Formatter::Slot Formatter::slot() const {
     case Family::kPlan: return kind == T::kOn ? Slot{1, 2} : kind == T::kWhen ? Slot{2, 2} : Slot{0, 0};
     case Family::kRule:
       if (brackets_ > 0) return {0, 0};
-      return kind == T::kAt ? Slot{1, 1} : kind == T::kWhen || kind == T::kWhile ? Slot{2, 1} : kind == T::kThen ? Slot{3, 1} : Slot{0, 0};
+      return kind == T::kAt ? Slot{1, 1, kFarthestAt} : kind == T::kWhen || kind == T::kWhile ? Slot{2, 1, kFarthestWhen} : kind == T::kThen ? Slot{3, 1, kFarthestThen} : Slot{0, 0};
     case Family::kLandmark: return kind == T::kAt ? Slot{1, 1} : Slot{0, 0};
     case Family::kRoad:
       if (kind == T::kTwoWay || kind == T::kArrow) return {1, 1};

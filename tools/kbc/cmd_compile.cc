@@ -69,14 +69,15 @@ std::string output_prefix(const CompileOptions& options) {
 
 // Whether PREFIX is no beginning of a name but itself what is written to: - or a device, a pipe, a socket.
 bool is_whole(const std::string& prefix) {
+  if (is_standard_output(prefix) || prefix.starts_with("/dev/fd/") || prefix.starts_with("/proc/")) return true;   // to whatever they lead
   std::error_code missing;
   const std::filesystem::file_status status = std::filesystem::status(prefix, missing);
-  return prefix == "-" || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status));
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status);
 }
 
 // The files to write, without the dependency file, in the order of `emit_files`.
 std::vector<std::string> output_names(const CompileOptions& options) {
-  if (is_whole(options.prefix)) return {options.prefix};
+  if (is_whole(options.prefix)) return {is_standard_output(options.prefix) ? "-" : options.prefix};
   const std::string prefix = output_prefix(options);
   std::vector<std::string> names;
   for (const std::string& ending : output_endings(options)) names.push_back(prefix + ending);

@@ -199,7 +199,10 @@ Run setup_drive(CLI::App& app) {
   app.parse_complete_callback([options, facts] {
     if (options->orders.given() && !facts->empty()) throw CLI::ValidationError("--facts", "with --orders each order makes other rules, which no recording of facts can tell; use --record and --messages, and --trace");
   });
-  return [options](Session& session) { return run(*options, session); };
+  return [options](Session& session) {
+    Interrupts::put_off_hangups();
+    return run(*options, session);
+  };
 }
 
 }  // namespace kb::cli

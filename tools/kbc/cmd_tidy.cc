@@ -60,15 +60,17 @@ int run(const TidyCommand& options, Session& session) {
   trace::OutputFile file;
   if (!session.open_output(file, options.output.empty() ? "-" : options.output)) return kErrors;
   if (!file.stays_beside()) interrupts.reset();
-  const trace::Tidied tidied = trace::mend(*bytes, options.how(), [&](std::string_view text) { file.write(text); });
+  const trace::Tidied tidied = trace::mend(*bytes, options.how(), [&](std::string_view text) { return file.write(text), !file.failed(); });
   if (Interrupts::came()) return kInterrupted;
+  const auto cannot_write = [&] { return failed(Kind::kCannotWrite, options.output.empty() ? "standard output" : options.output, file.error()); };
+  if (file.failed()) return cannot_write();
   if (!bytes->error().empty()) return failed(Kind::kCannotRead, options.file, bytes->error());
   if (tidied.fault != trace::Tidied::Fault::kNone) {
     report(options.file, tidied, session);
     return kErrors;
   }
   for (const trace::TidyChange& change : tidied.changes) session.report(Kind::kTidyChanged, {change.what, lines_text(change)});
-  if (!file.commit()) return failed(Kind::kCannotWrite, options.output.empty() ? "standard output" : options.output, file.error());
+  if (!file.commit()) return cannot_write();
   session.remark(fmt::format("{} of {}{}{}", tidied.kept, diagnostics::counted(tidied.rows, "row"), tidied.changes.empty() ? ", as they were" : "",
                              tidied.timed ? "" : " (without a column `t`, so there is no clock to mend)"));
   return session.exit_code();

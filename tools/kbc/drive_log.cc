@@ -80,7 +80,9 @@ void DriveLog::report(const Part& part) {
 void DriveLog::reopen() {
   for (Part* part : parts_) {
     if (part->file == nullptr || part->file->failed()) continue;
-    if (part->file->reopen()) part->file->write(part == &facts_ ? head_ : std::string());
+    std::string refused;
+    if (part->file->reopen(refused)) part->file->write(part == &facts_ ? head_ : std::string());
+    if (!refused.empty()) session_.report(Kind::kCannotWrite, {part->name, refused + std::string(kGoesOn)});
     if (part->file->failed()) report(*part);
   }
 }

@@ -18,6 +18,9 @@ namespace kb::cli {
 /// there is no such path.
 [[nodiscard]] std::string knowledge_comment(const std::string& facts, const std::string& knowledge);
 
+/// Said of a file that cannot be opened anew.
+inline constexpr std::string_view kGoesOn = "; it goes on in the file that it had";
+
 /// note [files that grow]
 /// A drive may take hours, and end when the battery does. So its files grow under temporary names, line by line, and get their names
 /// when the drive ends. Older files stay until then, and if the drive ends otherwise, the temporary files are left. A file that can no

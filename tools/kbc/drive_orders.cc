@@ -9,6 +9,7 @@
 
 #include "sim/world/geometry.h"
 #include "tools/kbc/checks.h"
+#include "tools/kbc/drive_log.h"
 #include "tools/kbc/layout_file.h"
 #include "tools/kbc/layout_plant.h"
 #include "tools/kbc/vda5050/link/broker_url.h"
@@ -183,6 +184,13 @@ void Orders::keep() {
   if (messages_.empty() || !good_) return;
   written_.keep();
   if (!written_.flush()) report();
+}
+
+void Orders::reopen() {
+  if (messages_.empty() || !good_) return;
+  std::string refused;
+  written_.reopen(refused);
+  if (!refused.empty()) session_.report(Kind::kCannotWrite, {messages_, refused + std::string(kGoesOn)});
 }
 
 bool Orders::end() {

@@ -46,7 +46,7 @@ class Orders {
   /// Writes what passed to disk; see note [files that grow].
   void keep();
   /// Opens the file of messages anew under its name.
-  void reopen() { written_.reopen(); }
+  void reopen();
   /// Takes leave of the master and gives the file of messages its name. False if it could not be written (reported).
   [[nodiscard]] bool end();
 

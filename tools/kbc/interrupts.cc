@@ -49,6 +49,10 @@ bool has_terminal() {
 
 }  // namespace
 
+void Interrupts::put_off_hangups() {
+  if (!has_terminal()) std::signal(SIGHUP, SIG_IGN);
+}
+
 Interrupts::Interrupts(bool reopens) {
   interrupted = 0;
   unseen = 0;

@@ -16,6 +16,8 @@ class Interrupts {
   ~Interrupts();
   Interrupts(const Interrupts&) = delete;
   Interrupts& operator=(const Interrupts&) = delete;
+  /// Without a terminal a SIGHUP does nothing from now on, until an object that `reopens` lives: it is meant for a drive that has just begun.
+  static void put_off_hangups();
   /// The first signal that came; 0: none. Any thread may ask.
   [[nodiscard]] static int which();
   [[nodiscard]] static bool came() { return which() != 0; }

@@ -125,6 +125,14 @@ TEST(Exchange, TheRedButtonAfterAPauseMovesNothing) {
   }
 }
 
+TEST(Exchange, ARedButtonOfWhichAHostSaysThatItIsNotPressedIsNotPressed) {
+  Cab cab;
+  set_off(cab);
+  EXPECT_TRUE(cab.say(1.92)["waits"]);
+  for (int i = 0; i < 30; ++i) EXPECT_TRUE(cab.say(1.94 + 0.02 * i, R"(,"facts":{"Abort":-1})")["waits"]) << "it would drive on";
+  EXPECT_EQ(cab.say(2.6)["mission"], true);
+}
+
 TEST(Exchange, WhatWasHeldAllTheTimeDoesNotStartItAgain) {
   Cab cab;
   set_off(cab);

@@ -121,19 +121,32 @@ bool OutputFile::flush() {
   return !failed();
 }
 
-bool OutputFile::reopen() {
+bool OutputFile::reopen(std::string& refused) {
   const bool beside = !temporary_.empty();
   if (!(beside || moved_) || !flush()) return false;
   const bool moves = beside && ::rename(temporary_.c_str(), target_.c_str()) == 0;
-  if (beside && !moves && errno != ENOENT) return fail(errno);   // else somebody has moved it by that name
+  if (beside && !moves && errno != ENOENT) return refused = source::reason(errno), false;   // else somebody has moved it by that name
+  if (!moves && !open_again(beside)) return refused = source::reason(errno), false;
   temporary_.clear();
   moved_ = true;
-  if (moves) return false;
-  const int file = ::open(target_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (beside ? O_TRUNC : 0), 0666);
-  if (file < 0) return fail(errno);
-  ::close(std::exchange(file_, file));
   struct ::stat about {};
-  return ::fstat(file, &about) == 0 && about.st_size == 0;
+  return !moves && ::fstat(file_, &about) == 0 && about.st_size == 0;
+}
+
+// With the rights of the file that was moved away. False (errno) if that cannot be; a pipe in its place would wait for a reader.
+bool OutputFile::open_again(bool cut) {
+  struct ::stat old {}, about {};
+  const unsigned mode = ::fstat(file_, &old) == 0 ? old.st_mode & 07777u : 0666u;
+  const int file = ::open(target_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | (cut ? O_TRUNC : 0), mode);
+  if (file < 0) return false;
+  if (::fstat(file, &about) != 0 || !S_ISREG(about.st_mode)) {
+    ::close(file);
+    errno = EINVAL;
+    return false;
+  }
+  if (about.st_size == 0) static_cast<void>(::fchmod(file, mode));
+  ::close(std::exchange(file_, file));
+  return true;
 }
 
 bool OutputFile::stage() {

@@ -38,8 +38,9 @@ class OutputFile {
   /// Leaves what is not committed `beside` instead of removing it: part of a file that grew for hours is worth keeping.
   void keep() { keep_ = true; }
   /// For a file that others move away while it grows: from now on it grows under its own name, which is opened anew. Until the first call that
-  /// is a move of what was written. Does nothing to a pipe. True if the file is empty now.
-  bool reopen();
+  /// is a move of what was written. Does nothing to a pipe. If that name cannot be opened, `refused` says why, and the file goes on growing where
+  /// it was. True if another file was opened that is empty.
+  bool reopen(std::string& refused);
   /// The temporary name, until it is committed.
   [[nodiscard]] const std::string& beside() const { return temporary_; }
   /// Brings everything to disk, not yet under its name. False if any write failed (a full disk); `error` says why.
@@ -55,6 +56,7 @@ class OutputFile {
 
  private:
   bool open_beside(bool exists, unsigned mode);
+  bool open_again(bool cut);
   void put(std::string_view bytes);
   bool fail(int code);
   void keep_old();

@@ -74,7 +74,7 @@ void read_json(std::string_view text, Row& row) {
 
 class Tidier {
  public:
-  Tidier(const TidyOptions& options, const std::function<void(std::string_view)>& write) : options_(options), write_(write) {
+  Tidier(const TidyOptions& options, const std::function<bool(std::string_view)>& write) : options_(options), write_(write) {
     for (const std::string_view what : {"half written, at the end: left out", "the same as the row before: left out", "earlier than a row before it: left out",
                                         "earlier than a row before it: put where its time belongs", "made later"}) {
       out_.changes.push_back({what, 0, {}});
@@ -83,11 +83,11 @@ class Tidier {
 
   Tidied mend(ByteStream& bytes) {
     LineReader lines(bytes);
-    for (auto line = lines.next(); line && out_.fault == Tidied::Fault::kNone; line = lines.next()) take(*line);
+    for (auto line = lines.next(); line && out_.fault == Tidied::Fault::kNone && wanted_; line = lines.next()) take(*line);
     if (!begun_) fail(Tidied::Fault::kNoHeader, LineReader::Line());
     if (half_) drop(*half_, kHalf), pass(*std::exchange(half_, {}));
     for (; !sorted_.empty(); sorted_.erase(sorted_.begin())) put(sorted_.begin()->second);
-    write_(before_);
+    say(before_);
     std::erase_if(out_.changes, [](const TidyChange& change) { return change.rows == 0; });
     out_.timed = json_ || header_.timed;
     return std::move(out_);
@@ -100,23 +100,25 @@ class Tidier {
   void fail(Tidied::Fault fault, const LineReader::Line& line) {
     if (out_.fault == Tidied::Fault::kNone) out_.fault = fault, out_.line = line.number, out_.text = line.text;
   }
-  void fail(Tidied::Fault fault, const Row& row) { fail(fault, {.text = std::string_view(row.bytes).substr(0, row.bytes.find_last_not_of("\r\n") + 1), .number = row.line}); }
+  static std::string_view text_of(const Row& row) { return std::string_view(row.bytes).substr(0, row.bytes.find_last_not_of("\r\n") + 1); }
+  void fail(Tidied::Fault fault, const Row& row) { fail(fault, {.text = text_of(row), .number = row.line}); }
 
   void take(const LineReader::Line& line) {
     if (line.too_long) return fail(Tidied::Fault::kTooLong, line);
     const std::size_t mark = static_cast<std::size_t>(line.text.data() - line.bytes.data()), first = line.text.find_first_not_of(" \t");
     const std::string_view bytes = line.bytes.substr(mark);
     if (line.number == 1) {
-      write_(line.bytes.substr(0, mark));
+      say(line.bytes.substr(0, mark));
       if (bytes.ends_with("\r\n")) line_end_ = "\r\n";
     }
     if (first == std::string_view::npos || line.text[first] == '#') {
       if (!begun_ && first != std::string_view::npos) read_option_comment(line.text, said_);
-      before_ += bytes;
+      if (options_.clock == Clock::kSort || half_) before_ += bytes;   // else nothing will come before it
+      else say(bytes);
     } else if (!std::exchange(begun_, true) && !(json_ = line.text[first] == '{')) {
       header_ = read_header(line.text);
-      write_(std::exchange(before_, {}));
-      write_(bytes);
+      say(std::exchange(before_, {}));
+      say(bytes);
     } else {
       take_row(line, bytes);
     }
@@ -136,8 +138,8 @@ class Tidier {
   /// All rows come here in the order of their lines.
   void pass(Row row) {
     if (options_.drop_duplicates && !row.bytes.empty()) {
-      if (row.bytes == last_) drop(row, kSame);
-      else last_ = row.bytes;
+      if (text_of(row) == last_) drop(row, kSame);
+      else last_ = text_of(row);
     }
     if (row.t_us && !row.bytes.empty()) mend_clock(row);
     if (options_.clock == Clock::kSort) sort(std::move(row));
@@ -180,11 +182,12 @@ class Tidier {
   }
 
   void put(const Row& row) {
-    write_(row.before);
-    write_(row.bytes);
+    say(row.before);
+    say(row.bytes);
     out_.kept += row.bytes.empty() ? 0 : 1;
   }
 
+  void say(std::string_view bytes) { wanted_ = wanted_ && write_(bytes); }
   void note(Change what, std::uint64_t line) {
     TidyChange& change = out_.changes[what];
     if (++change.rows <= TidyChange::kMostLines) change.lines.push_back(line);
@@ -195,7 +198,7 @@ class Tidier {
   }
 
   TidyOptions options_;
-  const std::function<void(std::string_view)>& write_;
+  const std::function<bool(std::string_view)>& write_;
   Tidied out_;
   FactsOptions said_;
   Header header_;
@@ -206,11 +209,11 @@ class Tidier {
   std::int64_t step_us_ = 0, shift_us_ = 0;
   std::multimap<std::optional<std::int64_t>, Row> sorted_;
   std::size_t held_ = 0;
-  bool json_ = false, begun_ = false;
+  bool json_ = false, begun_ = false, wanted_ = true;
 };
 
 }  // namespace
 
-Tidied mend(ByteStream& bytes, const TidyOptions& options, const std::function<void(std::string_view)>& write) { return Tidier(options, write).mend(bytes); }
+Tidied mend(ByteStream& bytes, const TidyOptions& options, const std::function<bool(std::string_view)>& write) { return Tidier(options, write).mend(bytes); }
 
 }  // namespace kb::trace

@@ -50,10 +50,10 @@ struct Tidied {
 /// How much of a recording is held to sort it, in bytes.
 inline constexpr std::size_t kMostSorted = std::size_t{32} << 20;
 
-/// Mends a recording and hands it to `write` piece by piece; its last row ends. Comments stay before the row that they stand before, also if
+/// Mends a recording and hands it to `write` piece by piece, until that returns false; its last row ends. Comments stay before the row that they stand before, also if
 /// that is left out; line ends stay what they are. A row that is wrong in another way, or has no time, stays as it is.
 /// In JSON lines a time must grow, in CSV it must not go back, as their readers want it. After a fault what was written is worth nothing. O(bytes), and
 /// O(rows log rows) to sort, in the memory of a few lines or of `kMostSorted`.
-[[nodiscard]] Tidied mend(ByteStream& bytes, const TidyOptions& options, const std::function<void(std::string_view)>& write);
+[[nodiscard]] Tidied mend(ByteStream& bytes, const TidyOptions& options, const std::function<bool(std::string_view)>& write);
 
 }  // namespace kb::trace
