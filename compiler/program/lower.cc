@@ -183,7 +183,6 @@ class Lowering {
     program_.controls.push_back(std::move(control));
   }
 
-
   const model::Model& model_;
   const source::Sources& sources_;
   Program program_;

@@ -51,10 +51,10 @@ class Conversation {
     using Came = wire::LineChannel::Came;
     for (std::string line;;) {
       const Came came = channel_.read(line, waits_ms());
-      if (Interrupts::reopen()) reopen();
+      if (Interrupts::reopen()) log_.reopen();
       if (came == Came::kLate) {
         orders_->wait(unheard_us());
-        orders_->keep();
+        log_.keep();
         continue;
       }
       if (came == Came::kStopped) return interrupted();
@@ -76,7 +76,6 @@ class Conversation {
       if (went != Came::kLine) return session_.exit_code();
       if (orders_ != nullptr) follow_orders(exchange_.line().has_value());
       log_.heard(line, answer, !exchange_.mistake());
-      if (orders_ != nullptr) orders_->keep();
     }
   }
 
@@ -90,10 +89,6 @@ class Conversation {
   [[nodiscard]] std::int64_t unheard_us() const {
     if (!orders_->live()) return unheard_ * std::max(sim::kControlUs, static_cast<std::int64_t>(static_cast<double>(exchange_.period_s()) * 1e6));
     return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - heard_at_).count();
-  }
-  void reopen() {
-    log_.reopen();
-    if (orders_ != nullptr) orders_->reopen();
   }
   /// A robot whose lines are refused stands, like one that is silent.
   void follow_orders(bool heard) {
@@ -151,12 +146,12 @@ int drive(const DriveCommand& options, const OrderMissions* missions, DriveGroun
   wire::Exchange exchange(*ground.knowledge, *scene.labyrinth, scene.scenario, std::move(how));
   std::unique_ptr<Orders> orders;
   if (missions != nullptr) {
-    orders = Orders::open(options.orders, *missions, ground, scene, exchange, session);
+    orders = Orders::open(options.orders, *missions, ground, scene, exchange, log.messages(), session);
     if (orders == nullptr) return kErrors;
   }
   const int code = Conversation(exchange, log, orders.get(), ground, session).run();
-  const bool told = orders == nullptr || orders->end();
-  return log.end() && told ? code : kErrors;
+  if (orders != nullptr) orders->end();
+  return log.end() ? code : kErrors;
 }
 
 int run(const DriveCommand& options, Session& session) {
@@ -194,7 +189,7 @@ Run setup_drive(CLI::App& app) {
   for (CLI::Option* file : {record, facts, trace}) {
     file->excludes(describe)->check([](const std::string& path) { return is_standard_output(path) ? std::string("standard output is for the answers; name a file") : std::string(); });
   }
-  add_order_options(app, options->orders);
+  add_order_options(app, options->orders, options->log.messages);
   app.get_option("--orders")->excludes(describe);
   app.parse_complete_callback([options, facts] {
     if (options->orders.given() && !facts->empty()) throw CLI::ValidationError("--facts", "with --orders each order makes other rules, which no recording of facts can tell; use --record and --messages, and --trace");

@@ -62,6 +62,10 @@ void DriveLog::ticked(const program::Tick& tick, std::string_view json, std::spa
 
 void DriveLog::heard(std::string_view line, std::string_view answer, bool understood) {
   if (record_.file != nullptr) record_.file->write((understood ? wire::with_answer(line, answer) : std::string(line)) + "\n");
+  keep();
+}
+
+void DriveLog::keep() {
   for (Part* part : parts_) {
     if (part->file == nullptr || part->file->failed()) continue;
     part->file->keep();
@@ -82,7 +86,7 @@ void DriveLog::reopen() {
     if (part->file == nullptr || part->file->failed()) continue;
     std::string refused;
     if (part->file->reopen(refused)) part->file->write(part == &facts_ ? head_ : std::string());
-    if (!refused.empty()) session_.report(Kind::kCannotWrite, {part->name, refused + std::string(kGoesOn)});
+    if (!refused.empty()) session_.report(Kind::kCannotWrite, {part->name, refused + "; it goes on in the file that it had"});
     if (part->file->failed()) report(*part);
   }
 }

@@ -9,7 +9,6 @@
 
 #include "sim/world/geometry.h"
 #include "tools/kbc/checks.h"
-#include "tools/kbc/drive_log.h"
 #include "tools/kbc/layout_file.h"
 #include "tools/kbc/layout_plant.h"
 #include "tools/kbc/vda5050/link/broker_url.h"
@@ -127,7 +126,7 @@ void check_together(const CLI::App& app, const OrderOptions& options) {
 
 }  // namespace
 
-void add_order_options(CLI::App& app, OrderOptions& options) {
+void add_order_options(CLI::App& app, OrderOptions& options, std::string& messages) {
   const std::string group = "Orders of a fleet's master (VDA 5050)";
   auto* orders = app.add_option("--orders", options.link.orders, "The source of missions: mqtt://HOST[:PORT], mqtts://..., or a file of messages, JSON lines")
                      ->type_name("URL|FILE")->group(group);
@@ -139,13 +138,13 @@ void add_order_options(CLI::App& app, OrderOptions& options) {
       ->type_name("ACTION")->allow_extra_args(false)->delimiter(',')->check(skill_fault)->needs(orders)->group(group);
   app.add_option("--visualization", options.visualization, "How often to send the position, besides states: 500ms; 0: never (1s with a broker, never with a file)")
       ->type_name("TIME")->needs(orders)->check(interval_fault)->group(group);
-  app.add_option("--messages", options.messages, "Write the messages between master and vehicle to this file; --orders can read it")->type_name("FILE")->needs(orders)->group(group);
+  app.add_option("--messages", messages, "Write the messages between master and vehicle to this file; --orders can read it")->type_name("FILE")->needs(orders)->group(group);
   add_plant_options(app, options, orders, group);
   app.callback([&app, &options] { check_together(app, options); });
 }
 
 std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
-                                     wire::Exchange& exchange, Session& session) {
+                                     wire::Exchange& exchange, trace::OutputFile* messages, Session& session) {
   std::unique_ptr<Orders> orders(new Orders(vda5050::without_password(options.link.orders), session));
   orders->plant_ = plant_of(options, missions, ground, *scene.labyrinth, session);
   if (orders->plant_ == nullptr) return nullptr;
@@ -155,49 +154,20 @@ std::unique_ptr<Orders> Orders::open(const OrderOptions& options, const OrderMis
   vda5050::Sheet sheet = sheet_of(scene.scenario);
   sheet.visualization_s = visualization_s(options);
   orders->vehicle_.emplace(options.link.identity, std::move(skills), *orders->plant_, std::move(sheet));
-  auto messages = session.diagnostics(ground.compiled->sources);
+  auto diagnostics = session.diagnostics(ground.compiled->sources);
   vda5050::LinkOptions how = options.link;
   vda5050::take_credentials(how);
   how.prepare = [who = how.identity](vda5050::Message& message) { message.read = std::make_shared<vda5050::ReadMessage>(vda5050::read_message(message, who)); };
   how.will = [who = how.identity](std::uint32_t header_id, std::int64_t utc_us) { return vda5050::will_of(who, header_id, utc_us); };
-  orders->link_ = vda5050::make_link(how, session.files(), ground.compiled->sources, messages);
+  orders->link_ = vda5050::make_link(how, session.files(), ground.compiled->sources, diagnostics);
   if (orders->link_ == nullptr) return nullptr;
-  if (!options.messages.empty()) {
-    if (!session.open_output(orders->written_, options.messages)) return nullptr;
-    orders->messages_ = options.messages;
-    orders->link_ = std::make_unique<vda5050::Recorder>(std::move(orders->link_), orders->written_);
-  }
+  if (messages != nullptr) orders->link_ = std::make_unique<vda5050::Recorder>(std::move(orders->link_), *messages);
   orders->desk_.emplace(missions, *ground.knowledge, exchange, *orders->vehicle_, *orders->link_);
   return orders;
 }
 
 void Orders::tell() {
   for (std::string news = link_->news(); !news.empty(); news = link_->news()) session_.remark(from_ + ": " + news);
-}
-
-void Orders::report() {
-  session_.report(Kind::kCannotWrite, {messages_, written_.error()});
-  good_ = false;
-}
-
-void Orders::keep() {
-  if (messages_.empty() || !good_) return;
-  written_.keep();
-  if (!written_.flush()) report();
-}
-
-void Orders::reopen() {
-  if (messages_.empty() || !good_) return;
-  std::string refused;
-  written_.reopen(refused);
-  if (!refused.empty()) session_.report(Kind::kCannotWrite, {messages_, refused + std::string(kGoesOn)});
-}
-
-bool Orders::end() {
-  desk_->leave();
-  tell();
-  if (!messages_.empty() && good_ && !written_.commit()) report();
-  return good_;
 }
 
 }  // namespace kb::cli

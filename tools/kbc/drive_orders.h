@@ -17,7 +17,6 @@ namespace kb::cli {
 
 struct OrderOptions {
   vda5050::LinkOptions link;           ///< if its `orders` is empty, no master gives missions
-  std::string messages;              ///< file for the messages between master and vehicle; empty: none
   std::vector<std::string> skills;   ///< `pick`, `wait=5s`
   std::string visualization;         ///< `500ms`: how often that message is sent; `0`: never; empty: every second to a broker, never to a file
   std::string map;                   ///< the id of the map that positions are on; empty: that of the layout, else the name of the knowledge base's first map
@@ -27,15 +26,16 @@ struct OrderOptions {
 
   [[nodiscard]] bool given() const { return !link.orders.empty(); }
 };
-void add_order_options(CLI::App& app, OrderOptions& options);
+/// `messages`: the file for the messages between master and vehicle.
+void add_order_options(CLI::App& app, OrderOptions& options, std::string& messages);
 
 /// An OrderDesk with all that it needs.
 class Orders {
  public:
-  /// `missions`, `ground`, `scene` and `exchange` must outlive it. Null if the link cannot be made, or the layout is not that of the
-  /// knowledge base (reported).
+  /// `missions`, `ground`, `scene`, `exchange` and `messages` must outlive it. Null if the link cannot be made, or the layout is not that of the
+  /// knowledge base (reported). `messages`: where messages are written to; may be null.
   [[nodiscard]] static std::unique_ptr<Orders> open(const OrderOptions& options, const OrderMissions& missions, const DriveGround& ground, const Scene& scene,
-                                                    wire::Exchange& exchange, Session& session);
+                                                    wire::Exchange& exchange, trace::OutputFile* messages, Session& session);
 
   /// To be called after each line that was understood.
   void step() { desk_->step(), tell(); }
@@ -43,26 +43,19 @@ class Orders {
   [[nodiscard]] bool live() const { return link_->live(); }
   /// To be called while nothing comes, or nothing that can be understood.
   void wait(std::int64_t silent_us) { desk_->wait(silent_us), tell(); }
-  /// Writes what passed to disk; see note [files that grow].
-  void keep();
-  /// Opens the file of messages anew under its name.
-  void reopen();
-  /// Takes leave of the master and gives the file of messages its name. False if it could not be written (reported).
-  [[nodiscard]] bool end();
+  /// Takes leave of the master.
+  void end() { desk_->leave(), tell(); }
 
  private:
   Orders(std::string from, Session& session) : session_(session), from_(std::move(from)) {}
   void tell();
-  void report();
 
   Session& session_;
-  std::string from_, messages_;   // the broker or file that orders come from; the file that messages are written to
-  trace::OutputFile written_;
+  std::string from_;   // the broker or file that orders come from
   std::unique_ptr<vda5050::Plant> plant_;
   std::optional<vda5050::Vehicle> vehicle_;
   std::unique_ptr<vda5050::Link> link_;
   std::optional<OrderDesk> desk_;
-  bool good_ = true;   // the file of messages could be written so far
 };
 
 }  // namespace kb::cli

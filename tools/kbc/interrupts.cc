@@ -57,7 +57,7 @@ Interrupts::Interrupts(bool reopens) {
   interrupted = 0;
   unseen = 0;
   hung_up = 0;
-  hangup_means_files = reopens && !has_terminal();
+  hangup_means_files = false;
   held = true;
   struct sigaction again {};
   again.sa_handler = break_off_waiting;

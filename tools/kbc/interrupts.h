@@ -7,8 +7,8 @@
 namespace kb::cli {
 
 /// While an object of this class lives, SIGINT, SIGTERM and SIGHUP (the terminal was closed; not under nohup) request an orderly end. A
-/// second signal, at least 0.3 s later, ends the program. With `reopens`, SIGHUP requests that files be opened anew instead, unless the process has
-/// a terminal that can be closed (and no nohup). Only one object may live at a time. Until `which` has told of the signal, each
+/// second signal, at least 0.3 s later, ends the program. With `reopens`, a SIGHUP that was ignored (by nohup, or since `put_off_hangups`) requests
+/// that files be opened anew. Only one object may live at a time. Until `which` has told of the signal, each
 /// second a call that waits in the main thread is broken off with EINTR (by SIGALRM). So no wait outlasts the request.
 class Interrupts {
  public:
@@ -16,7 +16,7 @@ class Interrupts {
   ~Interrupts();
   Interrupts(const Interrupts&) = delete;
   Interrupts& operator=(const Interrupts&) = delete;
-  /// Without a terminal a SIGHUP does nothing from now on, until an object that `reopens` lives: it is meant for a drive that has just begun.
+  /// If the process has no terminal that could be closed, SIGHUP is ignored from now on, until an object that `reopens` lives.
   static void put_off_hangups();
   /// The first signal that came; 0: none. Any thread may ask.
   [[nodiscard]] static int which();
