@@ -11,7 +11,7 @@
 set -uo pipefail
 cd "$(dirname "$0")" || exit 1
 export CTEST_OUTPUT_ON_FAILURE=1 CTEST_PARALLEL_LEVEL
-CTEST_PARALLEL_LEVEL=$(($(nproc) + 2))   # some wait for a browser or a network
+CTEST_PARALLEL_LEVEL=$(($(nproc) + 1))   # some wait for a browser or a network
 if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 unset WAYMARK_LIBRARY
 built=build/test
