@@ -1,5 +1,5 @@
 // Runs an emitted perception beside the plain reading of the program: the same facts, the very same numbers, from random readings with
-// noise and age, missing ones, NaN, out of range, from the future, and with time that goes backwards.
+// noise and age, missing ones, NaN, out of range, from the future, and with time that goes backwards. Then once more after a reset.
 #pragma once
 
 #include <cstdio>
@@ -11,13 +11,11 @@
 namespace kb::emitted {
 
 template <class Perception, class Mind>
-bool sees_alike(std::uint64_t seed) {
+bool sees_a_day_alike(std::uint64_t seed, Perception& perception, Mind& mind) {
   const program::Program program = tables::testing::random_perceiver(seed);
   const tables::PerceptionForm form = tables::build_perception(program);
   const auto plain = tables::make_plain_looker(program, form);
   typename Perception::Readings readings;
-  Perception perception;
-  Mind mind;
   tables::ReadingTable table(form.shape.readings);
   tables::testing::Dice dice(seed + 1);
   std::vector<float> given(program.facts, 0.0f);
@@ -48,9 +46,23 @@ bool sees_alike(std::uint64_t seed) {
                   static_cast<double>(facts.store().value[f]), static_cast<double>(expected[f]));
       return false;
     }
+    if (tick == 0 && perception.report().sight == mts::Sight::kTimeBackwards) {
+      std::printf("seed %llu: it remembers a time\n", static_cast<unsigned long long>(seed));
+      return false;
+    }
     static_cast<void>(mind.tick(facts, mts::milliseconds(50)));
   }
   return true;
+}
+
+template <class Perception, class Mind>
+bool sees_alike(std::uint64_t seed) {
+  Perception perception;
+  Mind mind;
+  if (!sees_a_day_alike(seed, perception, mind)) return false;
+  perception.reset();
+  mind.reset();
+  return sees_a_day_alike(seed, perception, mind);
 }
 
 }  // namespace kb::emitted

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include <waymark/runtime/image_mind.h>
@@ -167,6 +168,31 @@ TEST(Swap, TellsOfAnIdleStrategyThatDroveAndIsGone) {
       static_cast<void>(swapped(before, to_view, report, &losses));
       ASSERT_EQ(losses.size(), 1u);
       EXPECT_TRUE(losses.front().starts_with("strategy Park")) << losses.front();
+    });
+  });
+}
+
+TEST(Swap, TellsOfATimerThatIsGoneByItsLevel) {
+  using namespace program::testing;
+  const auto waits = [](std::uint32_t above_us, std::uint32_t below_us) {
+    ProgramBuilder b({"goal", "route", "map", "control"});
+    b.fact("Seen").satellite("Above").satellite("Below");
+    b.when("above", "goal", held(seen("Seen"), above_us), {raise("Above")});
+    b.when("below", "map", held(seen("Seen"), below_us), {raise("Below")});
+    return b.build();
+  };
+  const program::Program old = waits(100'000, 900'000), now = waits(200'000, 800'000);
+  const LoadedImage from(write_image(build(old), old)), to(write_image(build(now), now));
+  from.visit([&]<class I>(const mts::Image<I>& from_view) {
+    to.visit([&]<class J>(const mts::Image<J>& to_view) {
+      Running<I> before(from_view);
+      before.engine().reset();
+      for (int tick = 0; tick < 4; ++tick) before.tick({1.0f}, 100'000);
+      mts::SwapReport report;
+      std::vector<std::string> losses;
+      static_cast<void>(swapped(before, to_view, report, &losses));
+      std::sort(losses.begin(), losses.end());
+      EXPECT_EQ(losses, (std::vector<std::string>{"timer goal 1", "timer map 0"})) << "one is over, one runs";
     });
   });
 }

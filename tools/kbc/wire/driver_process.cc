@@ -17,7 +17,7 @@ extern char** environ;
 namespace kb::wire {
 namespace {
 
-constexpr int kEndsBySelf_ms = 1000, kEndsAsked_ms = 500;
+constexpr int kEndsBySelf_ms = 5000, kEndsAsked_ms = 1000;   // long enough for its files to get to a slow card
 
 /// A pipe whose ends other programs do not inherit.
 struct Pipe {

@@ -15,7 +15,7 @@ class DriverProcess {
   /// Starts `/bin/sh -c command` in a process group of its own; its standard error is ours. `error` says why if it cannot be started.
   /// `stop`: see LineChannel.
   static std::unique_ptr<DriverProcess> start(const std::string& command, bool (*stop)(), std::string& error);
-  /// Closes its standard input, gives it a second to end, then asks it to end, then kills it and all that it has started, except processes
+  /// Closes its standard input, gives it five seconds to end, then asks it to end, then kills it and all that it has started, except processes
   /// that have left its process group, as daemons do.
   ~DriverProcess();
   DriverProcess(const DriverProcess&) = delete;

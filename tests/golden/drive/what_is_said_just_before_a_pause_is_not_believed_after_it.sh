@@ -1,0 +1,1 @@
+# RUN: printf '{"t":0}\n{"t":0.05,"buttons":["Go"]}\n{"t":0.21}\n{"t":0.25,"facts":{"Line":0.9}}\n{"t":3}\n{"t":3.05,"buttons":["Go"]}\n{"t":3.2}\n{"t":3.21,"facts":{"Line":0.9}}\n{"t":3.35}\n' | kbc drive session.d/works.kb -w --facts %t/drive.facts.csv > /dev/null; tail -n +2 %t/drive.facts.csv | cut -d, -f 1,3,37
