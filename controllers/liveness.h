@@ -2,7 +2,8 @@
 //
 // note [a sense that is stuck]
 // A sensor that gives the same bits while the wheels turn is stuck. That holds only for sensors known to have noise: those whose values
-// kept changing while the robot stood. A sensor without noise may see the same for metres, such as a floor without paint.
+// kept changing while the robot stood. A sensor without noise may see the same for metres, such as a floor without paint. Odometry has no
+// noise; but if its speed says that the robot moves, its place must change.
 #pragma once
 
 #include <cstddef>
@@ -48,6 +49,46 @@ class Liveness {
   bool known_ = false, noisy_ = false;
   float noise_s_ = 0.0f;                       // how long its values have kept changing
   float same_m_ = 0.0f, same_s_ = 0.0f;        // since its values last changed
+};
+
+/// The compass and the odometry of a robot. One that is stuck counts as silent.
+class LiveGuides {
+ public:
+  /// Each period, before the senses are used: those that are stuck become unknown. What the wheels have turned belongs to the odometry.
+  constexpr void step(Senses& senses, float dt_s) noexcept {
+    const float way_m = senses.odometry_known ? magnitude(senses.speed_m_s) * dt_s : 0.0f;
+    const bool may_turn = !senses.turned_known || !turned_known_ || stuck_ || senses.turned_rad != turned_rad_;
+    judge_odometry(senses, way_m, dt_s);
+    const float heading[1] = {senses.heading_rad};
+    compass_.step(senses.heading_known, heading, true, may_turn ? kMayTurn_m : way_m, dt_s);
+    senses.heading_known = compass_.sees();
+    senses.odometry_known = senses.odometry_known && !stuck_;
+    senses.turned_known = senses.turned_known && !stuck_;
+  }
+
+ private:
+  constexpr void judge_odometry(const Senses& senses, float way_m, float dt_s) noexcept {
+    const bool same_place = senses.x_m == x_m_ && senses.y_m == y_m_;   // false for NaN
+    const bool same = same_place && senses.speed_m_s == speed_m_s_ && (!senses.turned_known || senses.turned_rad == turned_rad_);
+    moves_ = moves_ || (known_ && senses.odometry_known && !same_place && x_m_ == x_m_ && y_m_ == y_m_);
+    same_m_ = same && senses.odometry_known ? same_m_ + way_m : 0.0f;
+    same_s_ = same && senses.odometry_known ? same_s_ + dt_s : 0.0f;
+    stuck_ = moves_ && same_m_ > kStuck_m && same_s_ > kStuck_s;
+    x_m_ = senses.x_m;
+    y_m_ = senses.y_m;
+    speed_m_s_ = senses.speed_m_s;
+    turned_rad_ = senses.turned_rad;
+    known_ = senses.odometry_known;
+    turned_known_ = senses.turned_known;
+  }
+
+  static constexpr float kMayTurn_m = 1.0f;                   // as much as a way on which a compass must change: a robot that turns does not stand
+  static constexpr float kStuck_m = 0.08f, kStuck_s = 0.3f;   // a host may give its place ten times a second only
+  Liveness<1> compass_;
+  float x_m_ = 0.0f, y_m_ = 0.0f, speed_m_s_ = 0.0f, turned_rad_ = 0.0f;
+  float same_m_ = 0.0f, same_s_ = 0.0f;                       // what odometry says that it drove, since it said anything else
+  bool known_ = false, turned_known_ = false, stuck_ = false;
+  bool moves_ = false;                                        // its place has changed: not every host gives one
 };
 
 /// The line sensors and range finders of a robot. A sensor that is stuck counts as silent.

@@ -26,6 +26,7 @@
 #include "any_controller.h"
 #include "bind_line.h"
 #include "line_seeker.h"
+#include "liveness.h"
 #include "on_road.h"
 #include "road_map.h"
 #include "similarity.h"
@@ -67,6 +68,7 @@ class Pilot {
   [[nodiscard]] Motion step(const Senses& senses, float dt_s) noexcept {
     const float dt = as_.in(dt_s, "s");
     heard_ = mts::heard(seen_.in(steady_.step(sees_.in(senses), sees_.in(dt_s, "s"))), body_);
+    guides_.step(heard_, sane_period(dt));
     const Senses& steady = heard_;
     place_.step(steady, sane_period(dt));
     if (!in_crossing()) place_.settle(steady, sane_period(dt));
@@ -108,7 +110,7 @@ class Pilot {
   /// What drives, from the last `step` on: the line, null if nothing does, and its controller; kStand if that is none of Waymark's.
   [[nodiscard]] const ControlLine* line() const noexcept { return running_; }
   [[nodiscard]] ControllerId controller() const noexcept { return controller_.id(); }
-  /// The senses of the last `step` as the controllers had them: steadied, and of size 1.
+  /// The senses of the last `step` as the controllers had them: steadied, of size 1, and without a compass or odometry that is stuck.
   [[nodiscard]] const Senses& heard() const noexcept { return heard_; }
   /// What a controller is for.
   [[nodiscard]] static constexpr bool is_manoeuvre(ControllerId id) noexcept { return id == Id::kTurnOnLine || id == Id::kTurnByWalls || id == Id::kTurnByCompass; }
@@ -354,6 +356,7 @@ class Pilot {
   Body body_;                                 // of size 1, as the controllers know it
   Host host_;
   SteadyRanges steady_;
+  LiveGuides guides_;
   Senses heard_;
   AnyController controller_, suspended_;      // the second: what was interrupted and is to be continued, if `suspended_line_` is not null
   const ControlLine *line_ = nullptr, *running_ = nullptr, *suspended_line_ = nullptr;

@@ -37,10 +37,14 @@ class Odometer {
       return by_speed;
     }
     const float way = moved - least(counted_m_, moved);   // without what has been counted by speed already
+    unseen_m_ = moved > 0.0f ? 0.0f : clamped(unseen_m_ + by_speed, -kLeap_m, kLeap_m);
     moves_ = true;
     counted_m_ = 0.0f;
     return sign_of(faster) * way;
   }
+  /// To be asked when odometry falls silent: the way by its speed since its place last changed, at most 30 cm. If its place was stuck meanwhile,
+  /// and it is silent because somebody noticed that, the robot has driven so far.
+  [[nodiscard]] constexpr float unseen_m() const noexcept { return told_ ? unseen_m_ : 0.0f; }
   constexpr void take(const Senses& senses) noexcept {
     told_ = senses.odometry_known && tells(senses);
     x_m_ = senses.x_m;
@@ -58,6 +62,7 @@ class Odometer {
   static constexpr float kLeap_m = 0.3f, kLeap_m_s = 3.0f, kLateLeap_m = 3.0f;
   float x_m_ = 0.0f, y_m_ = 0.0f, speed_m_s_ = 0.0f;
   float counted_m_ = 0.0f;   ///< by speed, until `x_m` and `y_m` have changed once
+  float unseen_m_ = 0.0f;    ///< by speed, since they have changed
   bool told_ = false, moves_ = false;
 };
 
@@ -105,12 +110,11 @@ class Reckoning {
     at.heading_rad = wrapped_angle(at.heading_rad);
     heading_known_ = wheels || senses.heading_known;
     distance_known_ = senses.odometry_known;
-    const float way = distance_known_ ? odometry_.way_m(senses, dt_s) : 0.0f;
+    const float way = distance_known_ ? odometry_.way_m(senses, dt_s) : odometry_.unseen_m();
     odometry_.take(senses);
     way_m_ = magnitude(way);
     if (senses.heading_known) compass_silent_m_ = 0.0f;
     else compass_silent_m_ += way_m_;
-    if (!distance_known_) return;
     const float middle = before + 0.5f * wrapped_angle(at.heading_rad - before);
     at.x_m += way * cosine(middle);
     at.y_m += way * sine(middle);

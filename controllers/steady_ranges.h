@@ -174,6 +174,6 @@ class SteadyRanges {
   float median_m_ = 0.0f, since_s_ = 0.0f;         ///< since_s_: time since the last reading that was kept
   bool started_ = false, rough_ = false;
 };
-static_assert(sizeof(SteadyRanges) <= 2160);
+static_assert(sizeof(SteadyRanges) <= 2168);
 
 }  // namespace mts

@@ -123,5 +123,19 @@ TEST(Reckoning, WhatWasDrivenWhileOdometryWasSilentIsNotKnown) {
   EXPECT_NEAR(reckoning.at.x_m, 0.012f, 1e-4f);
 }
 
+TEST(Reckoning, OdometryThatIsFoundStuckHasDrivenBySpeed) {
+  Reckoning reckoning;
+  reckoning.start(at(0.0f, 0.0f, 0.3f), {});
+  reckoning.step(at(0.006f, 0.0f, 0.3f), 0.02f);
+  for (int i = 0; i < 10; ++i) reckoning.step(at(0.006f, 0.0f, 0.3f), 0.02f);
+  EXPECT_NEAR(reckoning.at.x_m, 0.006f, 1e-4f) << "wheels that do not turn";
+  Senses silent = at(0.006f, 0.0f, 0.3f);
+  silent.odometry_known = false;
+  for (int i = 0; i < 10; ++i) reckoning.step(silent, 0.02f);
+  EXPECT_NEAR(reckoning.at.x_m, 0.066f, 1e-4f);
+  for (int i = 0; i <= 10; ++i) reckoning.step(at(5.0f + 0.006f * static_cast<float>(i), 0.0f, 0.3f), 0.02f);
+  EXPECT_NEAR(reckoning.at.x_m, 0.066f + 0.006f * 11.0f, 1e-4f);
+}
+
 }  // namespace
 }  // namespace mts::plant
