@@ -3,12 +3,18 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <thread>
 #include <vector>
 
 #include "../runtime/cpp20.h"
+
+#if defined(__GLIBCXX__) && !defined(_GLIBCXX_HAS_GTHREADS)
+#error "fleets need std::thread: of MinGW's two compilers take the one with posix threads"
+#endif
 
 namespace mts {
 
@@ -39,36 +45,50 @@ class Crew {
     busy_.store(static_cast<std::uint32_t>(helpers_.size()), std::memory_order_relaxed);
     begin();
     work(0);
-    while (const std::uint32_t busy = busy_.load(std::memory_order_acquire)) await_change(busy_, busy);
+    while (const std::uint32_t busy = busy_.load(std::memory_order_acquire)) await_change(busy_, busy, done_);
   }
 
  private:
   /// Starts all helpers; they see everything that was written before.
   void begin() {
     round_.fetch_add(1, std::memory_order_release);
-    round_.notify_all();
+    wake(began_);
   }
 
   void help(unsigned number) noexcept {
     for (std::uint32_t round = 0;; ++round) {
-      await_change(round_, round);
+      await_change(round_, round, began_);
       if (work_ == nullptr) return;
       (*work_)(number);
-      if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+      if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) wake(done_);
     }
   }
 
-  static void await_change(const std::atomic<std::uint32_t>& number, std::uint32_t from) {
+  /// A number has changed: who found it unchanged with the mutex locked sleeps by now.
+  void wake(std::condition_variable& sleepers) {
+    { const std::lock_guard<std::mutex> lock(mutex_); }
+    sleepers.notify_all();
+  }
+
+  // Not std::atomic::wait: without futexes, as on Windows, libstdc++ 12 loses wakes.
+  void await_change(const std::atomic<std::uint32_t>& number, std::uint32_t from, std::condition_variable& changes) {
+    const auto changed = [&] { return number.load(std::memory_order_acquire) != from; };
     const auto patience = std::chrono::steady_clock::now() + std::chrono::microseconds(200);
-    while (number.load(std::memory_order_acquire) == from) {
-      if (std::chrono::steady_clock::now() < patience) std::this_thread::yield();
-      else number.wait(from, std::memory_order_acquire);
+    while (!changed()) {
+      if (std::chrono::steady_clock::now() < patience) {
+        std::this_thread::yield();
+      } else {
+        std::unique_lock<std::mutex> lock(mutex_);
+        changes.wait(lock, changed);
+      }
     }
   }
 
   std::atomic<std::uint32_t> round_ = 0, busy_ = 0;
   const std::function<void(unsigned)>* work_ = nullptr;   ///< nullptr: the crew is over
-  std::vector<std::thread> helpers_;
+  std::mutex mutex_;                                      ///< held by nobody who works
+  std::condition_variable began_, done_;
+  std::vector<std::thread> helpers_;                      ///< last: they use all of the above
 };
 
 }  // namespace mts

@@ -26,6 +26,11 @@ namespace detail {
   std::abort();
 #endif
 }
+
+struct FreeAligned {
+  std::align_val_t alignment{kPlaneBytes};
+  void operator()(std::byte* bytes) const { ::operator delete(bytes, alignment); }
+};
 }  // namespace detail
 
 /// Zeroed memory aligned to a cache line. Large blocks use large pages if the system has them, since a tick visits planes in no particular
@@ -36,7 +41,8 @@ class PlaneMemory {
   explicit PlaneMemory(std::size_t bytes) : size_(bytes) {
     const std::size_t unit = bytes >= kPage ? kPage : kPlaneBytes;
     const std::size_t whole = (std::max<std::size_t>(bytes, 1) + unit - 1) / unit * unit;
-    bytes_.reset(static_cast<std::byte*>(std::aligned_alloc(unit, whole)));
+    const std::align_val_t alignment{unit};   // Windows has no std::aligned_alloc
+    bytes_ = {static_cast<std::byte*>(::operator new(whole, alignment, std::nothrow)), detail::FreeAligned{alignment}};
     if (bytes_ == nullptr) detail::no_memory();
 #ifdef __linux__
     if (unit == kPage) madvise(bytes_.get(), whole, MADV_HUGEPAGE);
@@ -48,10 +54,7 @@ class PlaneMemory {
 
  private:
   static constexpr std::size_t kPage = std::size_t{2} << 20;
-  struct Free {
-    void operator()(std::byte* bytes) const { std::free(bytes); }
-  };
-  std::unique_ptr<std::byte, Free> bytes_;
+  std::unique_ptr<std::byte, detail::FreeAligned> bytes_;
   std::size_t size_ = 0;
 };
 

@@ -4,8 +4,7 @@
 //
 // That holds as long as the compiler does not fuse `a * b + c` into one operation. The CMake targets and waymark.pc compile all that includes
 // these headers with -ffp-contract=off; who compiles by other means should do the same, for each such file: of functions that several
-// files hold the linker takes any one. With fusing, results stay within the bounds stated here and may differ in the last bit between targets. So may those of x87 registers, which keep more bits than a float has: on x86
-// of 32 bits it takes -msse2 -mfpmath=sse.
+// files hold the linker takes any one. With fusing, results stay within the bounds stated here and may differ in the last bit between targets.
 //
 // note [a bound in ulp]
 //   One ulp of a float y is the distance from |y| to the next larger float. A bound of n ulp says that for every argument
