@@ -1,3 +1,4 @@
+#include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 #include "compiler/program/why.h"
 
@@ -6,20 +7,27 @@ namespace kb::program {
 Recorder::Recorder(const Program& program, std::uint64_t wanted) : program_(program), wanted_(wanted) {
   record_.fired_before.assign(program.rules.size(), 0);
   record_.last_write.resize(program.cells.size());
-  record_.levels.resize(program.levels.size());
+  std::vector<std::vector<CondId>> roots(program.levels.size());
+  for (const Rule& rule : program.rules) roots[rule.level].push_back(rule.condition);
+  for (const std::vector<CondId>& of_level : roots) {
+    conditions_.push_back(reachable(program.conds, of_level));
+    record_.levels.push_back({std::vector<float>(program.cells.size()), std::vector<bool>(program.conds.size()),
+                              std::vector<std::optional<std::int64_t>>(program.conds.size()), std::vector<bool>(program.rules.size())});
+  }
 }
 
 void Recorder::level_evaluated(const Interpreter& interpreter, std::uint32_t level) {
   if (watched_ != CellId::kNone) found_[level] = interpreter.value(watched_);
   if (interpreter.ticks() + 1 != wanted_) return;
   LevelRecord& kept = record_.levels[level];
-  for (std::uint32_t i = 0; i < program_.cells.size(); ++i) kept.cf.push_back(interpreter.value(CellId{i}));
-  for (std::uint32_t i = 0; i < program_.conds.size(); ++i) {
-    kept.truth.push_back(interpreter.holds(CondId{i}));
-    kept.held_us.push_back(program_.conds[i].op == Cond::Op::kFor ? interpreter.held_us(CondId{i}, level)
-                                                                  : std::nullopt);
+  for (std::uint32_t i = 0; i < program_.cells.size(); ++i) kept.cf[i] = interpreter.value(CellId{i});
+  for (const CondId id : conditions_[level]) {
+    kept.truth[index(id)] = interpreter.holds(id);
+    if (program_[id].op == Cond::Op::kFor) kept.held_us[index(id)] = interpreter.held_us(id, level);
   }
-  for (std::uint32_t i = 0; i < program_.rules.size(); ++i) kept.armed.push_back(interpreter.armed(RuleId{i}));
+  for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
+    if (program_.rules[i].level == level) kept.armed[i] = interpreter.armed(RuleId{i});
+  }
 }
 
 void Recorder::tick_ended(const Tick& tick, const Interpreter& interpreter) {
@@ -31,19 +39,18 @@ void Recorder::tick_ended(const Tick& tick, const Interpreter& interpreter) {
     return;
   }
   record_.tick = tick;
+  for (std::vector<bool>* facts : {&record_.seen, &record_.event, &record_.lost}) facts->resize(program_.facts);
   for (std::uint32_t i = 0; i < program_.facts; ++i) {
-    record_.seen.push_back(interpreter.seen(CellId{i}));
-    record_.event.push_back(interpreter.event(CellId{i}));
-    record_.lost.push_back(interpreter.lost(CellId{i}));
+    record_.seen[i] = interpreter.seen(CellId{i});
+    record_.event[i] = interpreter.event(CellId{i});
+    record_.lost[i] = interpreter.lost(CellId{i});
   }
-  for (std::uint32_t i = 0; i < program_.cells.size(); ++i) record_.cf_after.push_back(interpreter.value(CellId{i}));
+  record_.cf_after.resize(program_.cells.size());
+  for (std::uint32_t i = 0; i < program_.cells.size(); ++i) record_.cf_after[i] = interpreter.value(CellId{i});
 }
 
 void Recorder::go_on() {
   for (const RuleId rule : record_.tick.fired) record_.fired_before[index(rule)] = record_.tick.number;
-  record_.levels.assign(program_.levels.size(), {});
-  for (std::vector<bool>* facts : {&record_.seen, &record_.event, &record_.lost}) facts->clear();
-  record_.cf_after.clear();
   ++wanted_;
 }
 

@@ -23,7 +23,7 @@ namespace kb::program {
 /// What the rules of one level decided by on the tick in question.
 struct LevelRecord {
   std::vector<float> cf;                             ///< by cell
-  std::vector<bool> truth;                           ///< by condition; meaningful for those of this level's rules
+  std::vector<bool> truth;                           ///< by condition; meaningful for those of this level's rules, as all that follows
   std::vector<std::optional<std::int64_t>> held_us;  ///< by condition, `for` only: how long its part has held
   std::vector<bool> armed;                           ///< by rule
 };
@@ -73,13 +73,14 @@ class Recorder final : public Interpreter::Observer {
   }
   /// What the rules of each level found in the watched cell on the last tick, and behind them what the tick left in it.
   [[nodiscard]] const std::vector<float>& found() const { return found_; }
-  /// Forgets what was recorded of the wanted tick, which has ended, and wants the next one.
+  /// Wants the next tick, once the wanted one has ended.
   void go_on();
 
  private:
   void note_writes(const Tick& tick);
   const Program& program_;
   std::uint64_t wanted_;
+  std::vector<std::vector<CondId>> conditions_;   // by level: those of its rules
   Record record_;
   CellId watched_ = CellId::kNone;
   std::vector<float> found_;

@@ -91,22 +91,21 @@ class Replay {
       const program::Tick tick = interpreter.tick(facts, row->dt_us);
       recorder_.tick_ended(tick, interpreter);
       if (search_) search_->consider(tick, recorder_);
-      if (asks_for(program::CellKind::kFact) && record().tick.number == tick.number) sensed_ = given(facts[index(question_.cell)]);
+      if (asks_for(program::CellKind::kFact) && record().tick.number == tick.number) sighting_ = sighted(facts[index(question_.cell)]);
     }
     return !reader.failed() && (search_ ? reader.rows() > 0 : reader.rows() == tick_);
   }
   [[nodiscard]] const program::Record& record() const { return search_ ? search_->record(recorder_) : recorder_.record(); }
   [[nodiscard]] const std::optional<trace::WhySearch>& search() const { return search_; }
-  // How the fact in question was perceived, or badly given; empty if neither.
-  [[nodiscard]] const std::string& sensed() const { return sensed_; }
+  // How the fact in question was perceived, or badly given; nothing if neither.
+  [[nodiscard]] const std::optional<trace::Sighting>& sighting() const { return sighting_; }
 
  private:
   [[nodiscard]] bool asks_for(program::CellKind kind) const { return question_.cell != CellId::kNone && program_[question_.cell].kind == kind; }
-  // How the fact in question was perceived, or what is wrong with how it was given.
-  [[nodiscard]] std::string given(float certainty) const {
-    const std::string perceived = senses_.explain(question_.cell);
-    if (!perceived.empty() || program::is_certainty(certainty)) return perceived;
-    return fmt::format("  given as {}, which counts as {}\n", certainty, record().cf_after[index(question_.cell)]);
+  [[nodiscard]] std::optional<trace::Sighting> sighted(float certainty) const {
+    auto perceived = senses_.explain(question_.cell);
+    if (perceived || program::is_certainty(certainty)) return perceived;
+    return trace::Sighting{std::string(program_[question_.cell].name), {}, certainty, record().cf_after[index(question_.cell)]};
   }
 
   const program::Program& program_;
@@ -115,7 +114,7 @@ class Replay {
   program::Recorder recorder_;
   trace::Senses senses_;
   std::optional<trace::WhySearch> search_;
-  std::string sensed_;
+  std::optional<trace::Sighting> sighting_;
 };
 
 int why(const WhyOptions& options, Session& session) {
@@ -141,13 +140,13 @@ int why(const WhyOptions& options, Session& session) {
     answer.values = replay.search()->values();
     answer.within = replay.search()->within();
   }
+  answer.sighting = replay.sighting();
   if (options.json) {
     session.print(trace::print_json(program, replay.record(), answer) + "\n");
     return session.exit_code();
   }
   if (replay.search()) session.print(replay.search()->print(options.asked(), input.reader->rows()));
   session.print(trace::print(program, replay.record(), answer, options.all ? SIZE_MAX : 5));
-  session.print(replay.sensed());
   return session.exit_code();
 }
 

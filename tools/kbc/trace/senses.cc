@@ -50,40 +50,42 @@ std::span<const float> Senses::look_at(const FactsRow& row) {
   return facts_;
 }
 
-std::string Senses::explain(program::CellId fact) const {
+std::optional<Sighting> Senses::explain(program::CellId fact) const {
   const program::Perception& perception = program_.perception;
   const auto found = std::find_if(perception.perceived.begin(), perception.perceived.end(), [&](const auto& p) { return p.fact == fact; });
-  if (found == perception.perceived.end() || !looked_) return {};
-  if (looker_->asleep(static_cast<std::size_t>(found - perception.perceived.begin())))
-    return fmt::format("`{}` is lazy and nobody waits for it on this tick: it is not looked at, and is 0\n", program_[fact].name);
-  std::string out = fmt::format("`{}` is perceived as {:.3g}: {}\n", program_[fact].name, facts_[program::index(fact)],
-                                program::percept_text(program_, found->percept));
+  if (found == perception.perceived.end() || !looked_) return std::nullopt;
+  const float certainty = facts_[program::index(fact)];
+  Sighting out{std::string(program_[fact].name), program::percept_text(program_, found->percept), certainty, certainty,
+               looker_->asleep(static_cast<std::size_t>(found - perception.perceived.begin()))};
   std::vector<program::PerceptId> todo{found->percept};
-  while (!todo.empty()) {
+  while (!todo.empty() && !out.asleep) {
     const program::PerceptId id = todo.back();
     const program::Percept& percept = perception[id];
     todo.pop_back();
     todo.insert(todo.end(), percept.children.rbegin(), percept.children.rend());
     using Op = program::Percept::Op;
-    if (percept.op == Op::kFact) out += fmt::format("    {:<28} {:>6.3g}\n", program_[percept.cell].name, facts_[program::index(percept.cell)]);
-    if (percept.op == Op::kReads || percept.op == Op::kFits) out += fmt::format("    {:<28} {}\n", program::percept_text(program_, id), reading_text(percept));
+    if (percept.op == Op::kFact) out.parts.push_back({std::string(program_[percept.cell].name), facts_[program::index(percept.cell)]});
+    if (percept.op == Op::kReads || percept.op == Op::kFits) out.parts.push_back(compared(id));
   }
   return out;
 }
 
-std::string Senses::reading_text(const program::Percept& percept) const {
+Sighting::Part Senses::compared(program::PerceptId id) const {
+  const program::Percept& percept = program_.perception[id];
   const std::size_t r = percept.reading;
-  if (readings_.there[r] == 0) return "     0  no reading";
+  Sighting::Part part{program::percept_text(program_, id), 0.0f, true};
+  if (readings_.there[r] == 0) return part;
+  part.read = true;
+  part.certainty = looker_->certainty(percept);
+  part.age_s = static_cast<double>(now_us_ - readings_.at_us[r]) / 1e6;
   const program::Sensor& sensor = program_.perception.sensor_of(percept.reading);
-  std::string read;
   if (percept.op == program::Percept::Op::kFits) {
-    read = fmt::format("{:.4g}{}{}", readings_.value[r], sensor.unit.empty() ? "" : " ", sensor.unit);
-  } else {
-    const auto text = static_cast<std::size_t>(readings_.value[r]);
-    read = text == 0 ? "another text" : '"' + sensor.texts[text - 1] + '"';
+    part.reading = readings_.value[r];
+    part.unit = sensor.unit;
+  } else if (const auto text = static_cast<std::size_t>(readings_.value[r]); text != 0) {
+    part.reading = sensor.texts[text - 1];
   }
-  const double age_s = static_cast<double>(now_us_ - readings_.at_us[r]) / 1e6;
-  return fmt::format("{:>6.3g}  reads {}, {:g} s old", looker_->certainty(percept), read, age_s);
+  return part;
 }
 
 }  // namespace kb::trace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "compiler/tables/perception.h"
 #include "tools/kbc/trace/engine.h"
 #include "tools/kbc/trace/facts_csv.h"
+#include "tools/kbc/trace/sighting.h"
 
 namespace kb::trace {
 
@@ -36,17 +38,17 @@ class Senses {
 
   /// The perceived facts whose certainty the last look changed.
   [[nodiscard]] const std::vector<program::CellValue>& changed() const { return changed_; }
-  /// Why a perceived fact has its certainty: its definition, and each of its readings and facts as the last look found them, one a
-  /// line; or that it is lazy and asleep. Empty for a given fact, and without readings.
-  [[nodiscard]] std::string explain(program::CellId fact) const;
+  /// Why a perceived fact has its certainty: its definition, and each of its readings and facts as the last look found them; or that it
+  /// is lazy and asleep. Nothing for a given fact, and without readings.
+  [[nodiscard]] std::optional<Sighting> explain(program::CellId fact) const;
   [[nodiscard]] const Looks& looks() const { return looks_; }
   /// How the two perceptions differ, in words; empty if they agree or there is only one.
   [[nodiscard]] const std::string& disagreement() const { return disagreement_; }
 
  private:
   std::span<const float> look_at(const FactsRow& row);
-  /// The last reading for a percept that is compared with one, and how certain that makes the percept.
-  [[nodiscard]] std::string reading_text(const program::Percept& percept) const;
+  /// A percept that is compared with a reading: the last one, and how certain that makes it.
+  [[nodiscard]] Sighting::Part compared(program::PerceptId percept) const;
 
   const program::Program& program_;
   tables::PerceptionForm form_;

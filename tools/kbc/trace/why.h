@@ -10,6 +10,7 @@
 
 #include "compiler/program/program.h"
 #include "compiler/program/why.h"
+#include "tools/kbc/trace/sighting.h"
 
 namespace kb::trace {
 
@@ -72,6 +73,7 @@ struct Answer {
   std::vector<RuleAnswer> rules;  ///< those asked for, the nearest to firing first; or those that fired, in order
   std::optional<StrategyAnswer> strategy;
   std::vector<CellAnswer> cells;  ///< the cell asked for; the satellites of the strategy asked for
+  std::optional<Sighting> sighting{};   ///< of the fact asked for, if it is perceived or was badly given
 };
 
 /// `record` must be complete (its tick has ended). O(program).

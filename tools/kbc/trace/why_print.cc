@@ -128,6 +128,7 @@ std::string print(const Program& program, const Record& record, const Answer& an
     out += fmt::format("nothing ran at tick {}{}\n", record.tick.number, record.tick.status == program::Status::kHoldExpired ? ": `hold_limit` is over" : "");
   }
   for (const CellAnswer& cell : answer.cells) print_cell(program, record, cell, most, out);
+  if (answer.sighting) out += print(*answer.sighting);
   return out;
 }
 
@@ -142,6 +143,7 @@ std::string print_json(const Program& program, const Record& record, const Answe
   if (answer.strategy) out["strategy"] = json_strategy(program, record, *answer.strategy);
   out["cells"] = ordered_json::array();
   for (const CellAnswer& cell : answer.cells) out["cells"].push_back(json_cell(program, record, cell));
+  if (answer.sighting) out["cells"].back()["sighting"] = json_sighting(*answer.sighting);
   return out.dump();
 }
 
