@@ -307,6 +307,9 @@ void diagnose_cells(Subject& subject) {
   for (std::uint32_t i = 0; i < subject.program.facts; ++i) {
     if (subject.program.cells[i].name == "t") subject.diagnostics.report(Kind::kNamedAsTime, subject.program.cells[i].declared);
   }
+  for (const program::Sensor& sensor : subject.program.perception.sensors) {
+    if (sensor.name == "t" && !sensor.array) subject.diagnostics.report(Kind::kNamedAsTime, sensor.declared);
+  }
 }
 
 void diagnose_strategies(Subject& subject) {

@@ -294,7 +294,12 @@ struct Confusions::Impl {
   std::map<std::tuple<std::uint32_t, std::uint32_t, bool, std::uint32_t, bool>, bool> below;   // by sensor and two prototypes
   std::map<std::pair<std::uint32_t, std::uint32_t>, Curve> curves;   // by sensor and prototype
   std::vector<std::set<std::uint32_t>> readings;   // by perceived fact; filled when somebody asks
-  std::map<std::uint32_t, std::vector<std::size_t>> made_of;   // by reading: perceived facts, as far as `sharing_before` has come
+  // Perceived facts, as far as `sharing_before` has come. A reading is one text, so facts that are each just another of its texts exclude each other.
+  struct Sharers {
+    std::vector<std::size_t> texts, others;                       // which are one text of the reading, and all else
+    std::map<std::string, std::vector<std::size_t>> of_text;      // of `texts`
+  };
+  std::map<std::uint32_t, Sharers> made_of;   // by reading
 };
 
 Confusions::Confusions(const Program& program) : impl_(std::make_unique<Impl>(program)) {}
@@ -337,11 +342,22 @@ bool Confusions::reads_number(CellId fact) const {
 }
 
 std::vector<std::size_t> Confusions::sharing_before(std::size_t perceived) {
+  const program::Perception& perception = impl_->program.perception;
+  const program::Percept& definition = perception[perception.perceived[perceived].percept];
   std::vector<std::size_t> sharing;
-  for (const std::uint32_t reading : impl_->readings_of(impl_->program.perception.perceived[perceived].fact)) {
-    std::vector<std::size_t>& others = impl_->made_of[reading];
-    sharing.insert(sharing.end(), others.begin(), others.end());
-    others.push_back(perceived);
+  const auto share_with = [&](const std::vector<std::size_t>& facts) { sharing.insert(sharing.end(), facts.begin(), facts.end()); };
+  for (const std::uint32_t reading : impl_->readings_of(perception.perceived[perceived].fact)) {
+    Impl::Sharers& sharers = impl_->made_of[reading];
+    share_with(sharers.others);
+    if (definition.op == program::Percept::Op::kReads) {
+      std::vector<std::size_t>& same = sharers.of_text[definition.text];
+      share_with(same);
+      same.push_back(perceived);
+      sharers.texts.push_back(perceived);
+    } else {
+      share_with(sharers.texts);
+      sharers.others.push_back(perceived);
+    }
   }
   std::sort(sharing.begin(), sharing.end());
   sharing.erase(std::unique(sharing.begin(), sharing.end()), sharing.end());

@@ -57,8 +57,8 @@ class Confusions {
   [[nodiscard]] bool share_readings(program::CellId first, program::CellId second) const;
   /// Whether its definition asks for some reading of a number. To compare two such facts may cost some hundred evaluations.
   [[nodiscard]] bool reads_number(program::CellId fact) const;
-  /// The perceived facts before this one that share a reading with it, ascending, as indexes into the program's perceived facts.
-  /// Must be called for each fact once, in order.
+  /// The perceived facts before this one that share a reading with it, ascending, as indexes into the program's perceived facts; without those
+  /// that are another text of the same reading, if it is one as well. Must be called for each fact once, in order.
   [[nodiscard]] std::vector<std::size_t> sharing_before(std::size_t perceived);
 
  private:

@@ -1,5 +1,6 @@
 // Reports strategies that stay wanted for ever, so that strategies of lower priority never run again.
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -39,6 +40,7 @@ class LastingQuestions {
   void run() {
     ByFamily<Lasting> found(subject_);
     std::vector<bool> told(program_.cells.size(), false);
+    std::map<std::uint32_t, std::set<std::uint32_t>> leaving;   // by family: its instances
     for (const bool library : {false, true}) {   // if rules of both raise it, the message is about the user's
       for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
         if (program_.rules[i].standard != library) continue;
@@ -47,10 +49,14 @@ class LastingQuestions {
           told[program::index(write.cell)] = true;
           const CellId strategy = wants_[program::index(write.cell)];
           found.add(RuleId{i}, {strategy, write.cell, starved_[program::index(strategy)], dead_lowering(write.cell)});
+          leaving[subject_.family[i]].insert(i);
         }
       }
     }
-    found.for_each([&](RuleId rule, const Lasting& lasting, std::uint32_t count) { report(program_[rule], lasting, count); });
+    found.for_each([&](RuleId rule, const Lasting& lasting, std::uint32_t count) {
+      const bool one = leaving[subject_.family[program::index(rule)]].size() == 1;
+      report(program_[rule], lasting, one ? more(count, "that it leaves wanted") : more(count));
+    });
   }
 
  private:
@@ -171,13 +177,13 @@ class LastingQuestions {
     return group == program::kNoGroup || clears_[group] == spared_by_clears_[cell];
   }
 
-  void report(const Rule& rule, const Lasting& lasting, std::uint32_t count) const {
+  void report(const Rule& rule, const Lasting& lasting, const std::string& others) const {
     const std::string_view satellite = program_[lasting.satellite].name;
     const std::string consequence =
         lasting.starved == CellId::kNone ? "" : fmt::format(", so `{}`, which comes after it, never runs again", program_[lasting.starved].name);
     const bool dead = lasting.lowering != RuleId::kNone;
     auto message = subject_.diagnostics.report(Kind::kNeverLowered, rule.span,
-        {program_[lasting.strategy].name, rule.name, satellite, consequence, more(count), dead ? "that can fire " : ""});
+        {program_[lasting.strategy].name, rule.name, satellite, consequence, others, dead ? "that can fire " : ""});
     if (dead) message.note(Kind::kLoweringIsDead, program_[lasting.lowering].span, {program_[lasting.lowering].name});
     if (rule.mode == program::Mode::kWhile) message.note(Kind::kWhileLeavesWritten, {}, {satellite});
   }

@@ -1,0 +1,1 @@
+# RUN: awk 'BEGIN { print "levels goal > control\nsensor tag text\nnames Place {"; for (i = 1; i <= 700; ++i) print "    P" i (i < 700 ? "," : ""); print "}\nfacts At[Place]\nperceive [p in Place] At[p] = tag ~ p\nfact Twin = tag ~ \"P7\"" }' > %t/many.kb; kbc check %t/many.kb -Wno-unused-fact
