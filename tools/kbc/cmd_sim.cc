@@ -51,6 +51,7 @@ struct SimOptions {
   }
 };
 
+/// Each by itself: a disk that is full for one has room for another. False (reported) if one was not written.
 bool write_reports(const SimOptions& options, const sim::Recording& recording, const std::string& summary, Session& session) {
   std::vector<Session::OutputFile> files;
   if (!options.summary.empty()) files.push_back({options.summary, summary});
@@ -65,7 +66,9 @@ bool write_reports(const SimOptions& options, const sim::Recording& recording, c
   add(options.svg, sim::report::svg);
   add(options.perfetto, sim::report::chrome_trace);
   add(options.csv, sim::report::csv);
-  return files.empty() || session.write_files(files);
+  bool written = true;
+  for (const Session::OutputFile& file : files) written = session.write_files({file}) && written;
+  return written;
 }
 
 /// Starts the program that --driver names. Null (reported) if it cannot be started.
@@ -110,11 +113,11 @@ void drive_on(sim::Drive& drive, std::optional<double> speed, const Session& ses
 int tell_ending(const SimOptions& options, const Scene& scene, const sim::Summary& summary, const sim::Recording& recording, Session& session,
                 diagnostics::Diagnostics& messages) {
   const double scale = scene.labyrinth->scale;
-  if (!write_reports(options, recording, summary_json(summary, scale, scene.scenario.seed), session)) return kErrors;
+  const bool written = write_reports(options, recording, summary_json(summary, scale, scene.scenario.seed), session);
   if (!options.to_stdout()) session.print(print_summary(summary, scale, scene.scenario.limit_s));
   hint_at_clock(options, summary, session);
   if (options.expect) compare(summary, {*options.expect, options.allow}, messages);
-  return session.exit_code();
+  return written ? session.exit_code() : kErrors;
 }
 
 int drive(const SimOptions& options, const DriveGround& ground, const Scene& scene, Session& session, diagnostics::Diagnostics& messages) {
@@ -144,10 +147,7 @@ int drive(const SimOptions& options, const DriveGround& ground, const Scene& sce
   const auto conclude = [&]() -> int {
     if (helm != nullptr && helm->failure()) wire::report(*helm->failure(), {}, messages);
     helm.reset();   // the driver ends before anything is written
-    if (traced && !trace.commit()) {
-      messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
-      return kErrors;
-    }
+    if (traced && !trace.commit()) messages.report(Kind::kCannotWrite, {}, {options.trace, trace.error()});
     return tell_ending(options, scene, drive.summary(), recording, session, messages);
   };
   if (options.live) {
