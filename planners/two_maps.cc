@@ -1,7 +1,6 @@
 #include "planners/two_maps.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -1,7 +1,6 @@
 // Conditions, read in two steps as references are (references.h).
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "compiler/model/references.h"

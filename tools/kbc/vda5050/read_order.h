@@ -1,7 +1,6 @@
 // Reads a master's messages. Makes the checks that do not depend on the vehicle: 6.6.1 and 6.6.4.1 of VDA 5050 2.1.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
