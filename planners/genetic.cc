@@ -92,11 +92,10 @@ class Judge {
     if (problem_.movers != nullptr) {
       Cell here = problem_.grid->cell(one.walk[0]);
       for (std::size_t i = 0; i < one.walk.size(); ++i) {
-        const std::uint64_t t = options_.first_step + i;
-        if (problem_.movers->taken(here, t)) note(i);
+        if (problem_.movers->taken(here, i)) note(i);
         if (i == steps) break;
         const Cell next = problem_.grid->cell(one.walk[i + 1]);
-        if (problem_.movers->swaps(here, next, t)) note(i + 1);
+        if (problem_.movers->swaps(here, next, i)) note(i + 1);
         here = next;
       }
     }
