@@ -34,9 +34,7 @@ struct GeneticOptions {
   /// constant, it would be a constant factor and change nothing.)
   std::optional<double> course_rad = std::nullopt;
   std::uint32_t population = 60;       ///< at least 2; the best tenth survives unchanged
-  double crossover_chance = 0.7;
   double mutation_chance = 0.4;
-  std::uint32_t straightenings = 6;    ///< attempts for each child
   std::uint32_t max_generations = 300;
   std::uint32_t stagnation = 25;       ///< ends after this many generations without a better individual
   double target = 1.0;                 ///< a fitness that is good enough to end with, of a walk without conflicts
