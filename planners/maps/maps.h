@@ -41,7 +41,7 @@ struct RosMap {
   double occupied_thresh = 0.65;
   double free_thresh = 0.25;      ///< if the file is silent, map_server's own defaults
   bool negate = false;
-  enum class Mode : std::uint8_t { kTrinary, kScale, kRaw } mode = Mode::kTrinary;
+  bool raw = false;               ///< mode `raw`; `trinary` and `scale` are the same to whoever wants to know what is free
 };
 [[nodiscard]] std::optional<RosMap> read_ros_yaml(source::FileId file, diagnostics::Diagnostics& diagnostics);
 
