@@ -9,8 +9,6 @@
 
 namespace kb::emit {
 
-const char* index_type(const CppInput& in) { return in.tables.narrow ? "std::uint16_t" : "std::uint32_t"; }
-
 std::string float_literal(float value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
@@ -31,6 +29,8 @@ std::string membership_row(const mts::Membership& m) {
 }
 
 namespace {
+
+const char* index_type(const CppInput& in) { return in.tables.narrow ? "std::uint16_t" : "std::uint32_t"; }
 
 using Out = std::back_insert_iterator<std::string>;
 
