@@ -1,10 +1,11 @@
-// Bytes and characters: recognises files that are not UTF-8 with line ends LF or CRLF, counts code points, trims, converts to lower case.
+// Bytes and characters: recognises files that are not UTF-8 with line ends LF or CRLF, counts code points, trims, splits, converts to lower case.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace kb::source {
 
@@ -54,6 +55,17 @@ inline constexpr std::string_view kForeignQuotes[] = {"\u2018", "\u2019", "\u201
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
   return text;
+}
+
+/// The parts of `text` between the separators, in order: at least one, which may be empty.
+[[nodiscard]] inline std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return parts;
+    begin = end + 1;
+  }
 }
 
 /// How many code points the text has. O(bytes).
