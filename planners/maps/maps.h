@@ -59,10 +59,6 @@ struct MapFile {
 [[nodiscard]] std::optional<MapFile> read_map(const std::string& path, const source::FileSystem& files,
                                               source::Sources& sources, diagnostics::Diagnostics& diagnostics);
 
-/// Reads a file into `sources`. If it cannot be read, reports that and returns nothing.
-[[nodiscard]] std::optional<source::FileId> open_file(const std::string& path, const source::FileSystem& files,
-                                                      source::Sources& sources, diagnostics::Diagnostics& diagnostics);
-
 /// The place that `a,b` names in the frame of a map file. With `in_cells` it is a column and a row, counted from the top.
 [[nodiscard]] std::optional<Point> parse_place(std::string_view text, const Grid& grid, bool in_cells);
 /// The reverse: a place as the map file counts it, in metres or in columns and rows. Whole columns and rows are the middles of cells.

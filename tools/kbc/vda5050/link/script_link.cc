@@ -103,14 +103,9 @@ bool is_object(std::string_view payload) {
 
 std::optional<std::vector<ScriptMessage>> read_script(const std::string& path, const source::FileSystem& files, source::Sources& sources,
                                                       diagnostics::Diagnostics& diagnostics) {
-  auto read = files.read(path);
-  if (!read.bytes) {
-    if (read.too_large) diagnostics.report(Kind::kFileTooLarge, {}, {path, std::to_string(source::kMaxFileBytes >> 20)});
-    else diagnostics.report(Kind::kCannotRead, {}, {path, read.error});
-    return std::nullopt;
-  }
-  const source::FileId file = sources.add(path, std::move(*read.bytes));
-  const std::string_view bytes = sources.bytes(file);
+  const auto file = diagnostics::open_file(path, files, sources, diagnostics);
+  if (!file) return std::nullopt;
+  const std::string_view bytes = sources.bytes(*file);
   std::vector<ScriptMessage> messages;
   ScriptReader reader(messages);
   bool good = true;
@@ -120,7 +115,7 @@ std::optional<std::vector<ScriptMessage>> read_script(const std::string& path, c
     if (line.find_first_not_of(" \t\r") != std::string_view::npos) {
       if (const auto mistake = reader.line(line)) {
         const auto at = static_cast<std::uint32_t>(begin);
-        wire::report(*mistake, {file, at + mistake->span.begin, at + mistake->span.end}, diagnostics);
+        wire::report(*mistake, {*file, at + mistake->span.begin, at + mistake->span.end}, diagnostics);
         good = false;
       }
     }
