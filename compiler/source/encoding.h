@@ -49,6 +49,10 @@ inline constexpr std::string_view kForeignQuotes[] = {"\u2018", "\u2019", "\u201
   return text;
 }
 
+/// Of ASCII only, under every locale.
+[[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+[[nodiscard]] constexpr bool is_letter_or_digit(char c) { return (lower(c) >= 'a' && lower(c) <= 'z') || is_digit(c); }
+
 /// The part of `text` without blanks, tabs and line ends at its ends.
 [[nodiscard]] constexpr std::string_view trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };

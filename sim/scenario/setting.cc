@@ -30,7 +30,7 @@ std::string plain_value(const std::string& text) {
   return number != nullptr ? fmt::format("{}", number->get() + 0.0) : text;   // so that -0.0 is 0
 }
 
-bool is_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; }
+bool is_word(char c) { return source::is_letter_or_digit(c) || c == '_' || c == '-'; }
 
 /// Whether a text is a key: words with points between them.
 bool is_key(std::string_view text) {
