@@ -73,7 +73,7 @@ class ScriptReader {
     const bool of_master = draft.from == kSides[0];
     if (of_master && draft.topic != nullptr) reading.word("topic", *draft.topic, kOfMaster, draft.name);
     if (reading.mistake()) return reading.mistake();
-    if (draft.t_us() < t_us_) return Mistake{Kind::kLinkBackwards, {seconds(draft.t_us()), seconds(t_us_), {}}, "t", draft.t->span};
+    if (draft.t_us() < t_us_) return Mistake{Kind::kLinkBackwards, {program::seconds_text(draft.t_us()), program::seconds_text(t_us_), {}}, "t", draft.t->span};
     t_us_ = draft.t_us();
     if (!of_master) return std::nullopt;
     const bool json = draft.message->kind == Json::Kind::kObject;
@@ -82,12 +82,6 @@ class ScriptReader {
   }
 
  private:
-  static std::string seconds(std::int64_t t_us) {
-    std::string text;
-    program::append_seconds(text, t_us);
-    return text;
-  }
-
   std::vector<ScriptMessage>& messages_;
   std::int64_t t_us_ = 0;
 };
