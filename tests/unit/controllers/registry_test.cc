@@ -7,6 +7,7 @@
 #include <string>
 
 #include <waymark/controllers/any_controller.h>
+#include "tests/unit/controllers/drives.h"
 #include "tests/unit/whole_file.h"
 
 namespace mts {
