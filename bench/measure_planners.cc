@@ -27,7 +27,6 @@
 #include "planners/report/rows.h"
 #include "planners/shortest.h"
 #include "planners/trap.h"
-#include "planners/two_maps.h"
 #include "tests/unit/planners/planning.h"
 
 namespace kb::planners {

@@ -36,7 +36,7 @@ class AnyController {
     id_ = id;
     turn_set_ = false;
     timeless_ = 0;
-    visit([&]<class Chosen>(Chosen& controller) {
+    visit(*this, [&]<class Chosen>(Chosen& controller) {
       new (&controller) Chosen{};
       if constexpr (requires { controller.body; }) controller.body = body;
       if constexpr (requires { controller.host; }) controller.host = host;
@@ -97,7 +97,7 @@ class AnyController {
   void start(const Task& task, const Senses& senses) noexcept {
     Task mine = task;
     if (turn_set_) mine.turn = turn_;
-    visit([&](auto& controller) { controller.start(mine, senses); });
+    visit(*this, [&](auto& controller) { controller.start(mine, senses); });
   }
   /// What the wheels are to do until the next step. `dt_s`: seconds since the last one, usually 0.005 to 0.02; more than half a second counts as
   /// half, NaN, negative ones and less than a microsecond as 0 (see `sane_period`). Call `start` before: without it the answer
@@ -105,60 +105,55 @@ class AnyController {
   /// needs comes on top.
   [[nodiscard]] Motion step(const Senses& senses, float dt_s) noexcept {
     Motion motion;
-    visit([&](auto& controller) { motion = controller.step(senses, dt_s); });
+    visit(*this, [&](auto& controller) { motion = controller.step(senses, dt_s); });
     timeless_ = sane_period(dt_s) > 0.0f ? std::uint8_t{0} : timeless_ < kMostTimeless ? static_cast<std::uint8_t>(timeless_ + 1) : kMostTimeless;
     return timeless_ < kMostTimeless ? motion : Motion{};
   }
   /// Whether the controller has reached its end; the robot then stands.
   [[nodiscard]] bool done() const noexcept {
-    bool answer = false;
-    const_cast<AnyController*>(this)->visit([&](const auto& controller) { answer = controller.done(); });
-    return answer;
+    return ask(false, [](const auto& controller) { return controller.done(); });
   }
   /// Whether it has lost what it follows; the robot then stands.
   [[nodiscard]] bool lost() const noexcept {
-    bool answer = false;
-    const_cast<AnyController*>(this)->visit([&](const auto& controller) {
-      if constexpr (requires { controller.lost(); }) answer = controller.lost();
-    });
-    return answer;
+    return ask(false, [](const auto& controller) -> decltype(controller.lost()) { return controller.lost(); });
   }
   /// Why it fails to cross a hall; kNone while it gets on, and for controllers that do not cross halls.
   [[nodiscard]] Plight plight() const noexcept {
-    Plight answer = Plight::kNone;
-    const_cast<AnyController*>(this)->visit([&](const auto& controller) {
-      if constexpr (requires { controller.plight(); }) answer = controller.plight();
-    });
-    return answer;
+    return ask(Plight::kNone, [](const auto& controller) -> decltype(controller.plight()) { return controller.plight(); });
   }
 
  private:
-  [[nodiscard]] Body body() noexcept {
-    Body answer;
-    visit([&](const auto& controller) {
-      if constexpr (requires { controller.body; }) answer = controller.body;
+  [[nodiscard]] Body body() const noexcept {
+    return ask(Body{}, [](const auto& controller) -> decltype(controller.body) { return controller.body; });
+  }
+
+  /// The controller's answer to a question; `answer` if it cannot be asked that.
+  template <class Answer, class Question>
+  [[nodiscard]] Answer ask(Answer answer, Question question) const noexcept {
+    visit(*this, [&](const auto& controller) {
+      if constexpr (requires { question(controller); }) answer = question(controller);
     });
     return answer;
   }
 
-  template <class Use>
-  void visit(Use&& use) noexcept {
-    switch (id_) {
-      case ControllerId::kStand: return use(stand_);
-      case ControllerId::kFollowLine: return use(follow_line_);
-      case ControllerId::kKeepWall: return use(keep_wall_);
-      case ControllerId::kHoldHeading: return use(hold_heading_);
-      case ControllerId::kTurnOnLine: return use(turn_on_line_);
-      case ControllerId::kTurnByWalls: return use(turn_by_walls_);
-      case ControllerId::kTurnByCompass: return use(turn_by_compass_);
-      case ControllerId::kRoundObstacle: return use(round_obstacle_);
-      case ControllerId::kTurnRound: return use(turn_round_);
-      case ControllerId::kLookRound: return use(look_round_);
-      case ControllerId::kBug: return use(bug_);
-      case ControllerId::kPotential: return use(potential_);
-      case ControllerId::kFollowRules: return use(follow_rules_);
+  template <class Self, class Use>
+  static void visit(Self& self, Use&& use) noexcept {
+    switch (self.id_) {
+      case ControllerId::kStand: return use(self.stand_);
+      case ControllerId::kFollowLine: return use(self.follow_line_);
+      case ControllerId::kKeepWall: return use(self.keep_wall_);
+      case ControllerId::kHoldHeading: return use(self.hold_heading_);
+      case ControllerId::kTurnOnLine: return use(self.turn_on_line_);
+      case ControllerId::kTurnByWalls: return use(self.turn_by_walls_);
+      case ControllerId::kTurnByCompass: return use(self.turn_by_compass_);
+      case ControllerId::kRoundObstacle: return use(self.round_obstacle_);
+      case ControllerId::kTurnRound: return use(self.turn_round_);
+      case ControllerId::kLookRound: return use(self.look_round_);
+      case ControllerId::kBug: return use(self.bug_);
+      case ControllerId::kPotential: return use(self.potential_);
+      case ControllerId::kFollowRules: return use(self.follow_rules_);
       case ControllerId::kNeuralMap:
-      case ControllerId::kGenetic: return use(follow_plan_);
+      case ControllerId::kGenetic: return use(self.follow_plan_);
     }
   }
 

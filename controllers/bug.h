@@ -36,7 +36,7 @@ inline constexpr Gain<BugGains> kBugGains[] = {
     angle_gain("turn_speed", "deg/s", &BugGains::turn_rad_s, 20.0f, 240.0f, "the fastest turn"),
 };
 
-class Bug {
+class Bug : public HallController {
  public:
   BugGains gains;
   Body body;
@@ -83,10 +83,6 @@ class Bug {
     }
     return braked(wall_.step(senses, hall_.at(), dt, wall, body), senses, body);
   }
-
-  [[nodiscard]] bool done() const noexcept { return hall_.past(); }
-  [[nodiscard]] bool lost() const noexcept { return hall_.past() || plight_ != Plight::kNone; }
-  [[nodiscard]] Plight plight() const noexcept { return plight_; }
 
  private:
   enum class Phase : std::uint8_t { kStraight, kTurn, kRound, kBackToNearest };
@@ -244,13 +240,11 @@ class Bug {
   static constexpr float kNearer_m = 0.1f, kOnLine_m = 0.03f, kLeastLoop_m = 1.0f;
   static constexpr float kBeside_rad = 40.0f * kRadPerDeg, kSameWay_rad = 45.0f * kRadPerDeg;
   static constexpr std::uint8_t kMostInVain = 6;
-  Hall hall_{};
   OneWall wall_{};
   NearPoints points_{};
   Trail trail_{};
   Place from_{}, met_{}, nearest_{}, mark_{};
   Phase phase_ = Phase::kStraight, then_ = Phase::kRound;
-  Plight plight_ = Plight::kNone;
   float nearest_hit_m_ = 0.0f;                        ///< distance to the goal of the place nearest to it where a wall was met so far
   float met_at_m_ = 0.0f, far_m_ = 0.0f;              ///< distance driven when it met this wall; the farthest that it has been from that place since
   float nearest_m_ = 0.0f, nearest_at_m_ = 0.0f;      ///< the point of this wall nearest to the goal: its distance to the goal, and the way round to it

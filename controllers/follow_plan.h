@@ -28,7 +28,7 @@ inline constexpr Gain<PlanGains> kGeneticGains[] = {
     whole_gain("seed", &PlanGains::seed, 0.0f, 1e6f, "of the dice"),
 };
 
-class FollowPlan {
+class FollowPlan : public HallController {
  public:
   PlanGains gains;
   Body body;
@@ -67,16 +67,10 @@ class FollowPlan {
     return braked(along_course(on, how), senses, body, 0.03f);
   }
 
-  [[nodiscard]] bool done() const noexcept { return hall_.past(); }
-  [[nodiscard]] bool lost() const noexcept { return hall_.past() || plight_ != Plight::kNone; }
-  [[nodiscard]] Plight plight() const noexcept { return plight_; }
-
  private:
   static constexpr float kBend_m = 0.1f, kIdle_s = 4.0f;
-  Hall hall_{};
   Course course_{};
   Door in_{};
-  Plight plight_ = Plight::kNone;
   float idle_s_ = 0.0f, last_rad_ = 0.0f;
   bool first_ = true;
 };

@@ -19,7 +19,7 @@
 
 namespace mts {
 
-class FollowRules {
+class FollowRules : public HallController {
  public:
   Body body;
   Host host;
@@ -51,10 +51,6 @@ class FollowRules {
     return decide(senses);
   }
 
-  [[nodiscard]] bool done() const noexcept { return hall_.past(); }
-  [[nodiscard]] bool lost() const noexcept { return hall_.past() || plight_ != Plight::kNone; }
-  [[nodiscard]] Plight plight() const noexcept { return plight_; }
-
  private:
   [[nodiscard]] float free_at(std::size_t i) const noexcept {
     const float touching = body.radius_m + kNear_m;
@@ -84,9 +80,7 @@ class FollowRules {
   static constexpr float kNear_m = 0.1f, kBeside_m = 0.04f, kStep_m = 0.55f, kSees_m = 0.8f, kStride_m = 0.1f;
   static constexpr float kTurned_rad = 4.0f * kRadPerDeg, kSteered_rad = 20.0f * kRadPerDeg;
   static constexpr float kPatience_m = 3.0f, kPatience_s = 10.0f;
-  Hall hall_{};
   NearPoints points_{};
-  Plight plight_ = Plight::kNone;
   float heading_rad_ = 0.0f;   ///< to which it turns, and then drives
   float ahead_to_m_ = 0.0f;    ///< straight on until so much has been driven
   bool turning_ = false;

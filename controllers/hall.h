@@ -158,6 +158,18 @@ class Hall {
   bool known_ = false, blind_ = true;
 };
 
+/// What the controllers that cross a hall tell of themselves. They start `hall_`, and set `plight_` where they can no longer get on.
+class HallController {
+ public:
+  [[nodiscard]] bool done() const noexcept { return hall_.past(); }
+  [[nodiscard]] bool lost() const noexcept { return hall_.past() || plight_ != Plight::kNone; }
+  [[nodiscard]] Plight plight() const noexcept { return plight_; }
+
+ protected:
+  Hall hall_{};
+  Plight plight_ = Plight::kNone;
+};
+
 /// Drives towards a bearing; turns on the spot while it is more than 35 degrees off.
 [[nodiscard]] constexpr Motion towards(float bearing_rad, const HallGains& gains) noexcept {
   constexpr float kSpot = 35.0f * kRadPerDeg;

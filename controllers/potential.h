@@ -42,7 +42,7 @@ inline constexpr Gain<PotentialGains> kPotentialGains[] = {
     gain("patience", "m", &PotentialGains::patience_m, 0.5f, 50.0f, "how far it drives without coming nearer to the goal"),
 };
 
-class Potential {
+class Potential : public HallController {
  public:
   PotentialGains gains;
   Body body;
@@ -66,10 +66,6 @@ class Potential {
     points_.step_all(senses, hall_.at(), body.radius_m + gains.zone_m + 0.1f, dt);
     return braked(pushed(), senses, body);
   }
-
-  [[nodiscard]] bool done() const noexcept { return hall_.past(); }
-  [[nodiscard]] bool lost() const noexcept { return hall_.past() || plight_ != Plight::kNone; }
-  [[nodiscard]] Plight plight() const noexcept { return plight_; }
 
  private:
   [[nodiscard]] float attraction() const noexcept {
@@ -101,9 +97,7 @@ class Potential {
   }
 
   static constexpr float kPatience_s = 8.0f, kLeast_m = 0.01f;
-  Hall hall_{};
   NearPoints points_{};
-  Plight plight_ = Plight::kNone;
 };
 
 }  // namespace mts

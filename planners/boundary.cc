@@ -1,6 +1,5 @@
 #include "planners/boundary.h"
 
-#include <algorithm>
 #include <cstdlib>
 
 namespace kb::planners {

@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "planners/geometry.h"
 #include "planners/grid.h"

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "planners/boundary.h"
 #include "planners/problem.h"

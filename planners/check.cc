@@ -155,19 +155,17 @@ std::optional<Objection> check_path(const Grid& grid, const std::vector<Point>& 
   return check_path(grid, path, touch);
 }
 
-std::optional<Objection> check_walk(const Grid& grid, const Movers* movers, const std::vector<Cell>& cells,
-                                    std::uint64_t first) {
+std::optional<Objection> check_walk(const Grid& grid, const Movers* movers, const std::vector<Cell>& cells) {
   if (cells.empty()) return Objection{"it has no points", 0};
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::uint64_t t = first + i;
     if (grid.blocked(cells[i])) return Objection{"it crosses a blocked cell", i};
-    if (movers != nullptr && movers->taken(cells[i], t)) return Objection{"it meets a moving obstacle", i};
+    if (movers != nullptr && movers->taken(cells[i], i)) return Objection{"it meets a moving obstacle", i};
     if (i == 0) continue;
     const Cell from = cells[i - 1], to = cells[i];
     const Cell side{from.x, to.y}, other{to.x, from.y};
     if (std::abs(to.x - from.x) > 1 || std::abs(to.y - from.y) > 1) return Objection{"it jumps", i - 1};
     if (grid.blocked(side) || grid.blocked(other)) return Objection{"it cuts a corner", i - 1};
-    if (movers != nullptr && movers->swaps(from, to, t - 1)) return Objection{"it changes places with a moving obstacle", i - 1};
+    if (movers != nullptr && movers->swaps(from, to, i - 1)) return Objection{"it changes places with a moving obstacle", i - 1};
   }
   return std::nullopt;
 }

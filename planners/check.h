@@ -33,8 +33,7 @@ struct Objection {
                                                   Point goal, double tolerance_m);
 
 /// Checks a walk through space and time: each step is one legal move or a wait, and the walk never enters a mover's cell nor passes
-/// through a mover. The robot is in cells[i] at step first + i.
-[[nodiscard]] std::optional<Objection> check_walk(const Grid& grid, const Movers* movers, const std::vector<Cell>& cells,
-                                                  std::uint64_t first = 0);
+/// through a mover. The robot is in cells[i] at step i.
+[[nodiscard]] std::optional<Objection> check_walk(const Grid& grid, const Movers* movers, const std::vector<Cell>& cells);
 
 }  // namespace kb::planners

@@ -11,10 +11,15 @@
 namespace kb::planners {
 namespace {
 
+/// How far the robot sees. It may also leave a wall by a free straight line to the point of the fairway that is this far beyond the
+/// hit (2 p0 in the paper's terms; p0 is 3 cells).
+constexpr std::uint32_t kRangeCells = 6;
+constexpr std::uint64_t kMostHalves = 50'000'000;   ///< half cells of wall to follow before kLimit
+
 class FairwayBug {
  public:
-  FairwayBug(const Problem& problem, const Grid& actual, const RunOptions& run, const FairwayBugOptions& options)
-      : problem_(problem), actual_(actual), options_(options), watch_(run), map_(*problem.grid) {}
+  FairwayBug(const Problem& problem, const Grid& actual, const RunOptions& run)
+      : problem_(problem), actual_(actual), watch_(run), map_(*problem.grid) {}
 
   Result go() {
     Cell at = problem_.start_cell();
@@ -71,10 +76,10 @@ class FairwayBug {
     bool stopped = false;
   };
   Round follow(const LineCrossing& hit, std::size_t at) {
-    const Hand hand = hand_towards(actual_, hit, centre_node(way_[std::min(at + options_.range_cells, way_.size() - 1)]));
+    const Hand hand = hand_towards(actual_, hit, centre_node(way_[std::min(at + kRangeCells, way_.size() - 1)]));
     WallWalk walk(actual_, hit.at, edge_after_hit(actual_, hit, hand), hand);
     while (walk.next()) {
-      if (++halves_ > options_.max_halves || watch_.stopped()) return {0, true};
+      if (++halves_ > kMostHalves || watch_.stopped()) return {0, true};
       touch(hand == Hand::kLeft ? walk.edge().left() : walk.edge().right());
       go_to(place(walk.node()));
       const auto met = passes_.find({walk.node().x, walk.node().y});
@@ -82,7 +87,7 @@ class FairwayBug {
       if (met != passes_.end() && met->second >= at && walk.can_enter(way_[met->second + 1])) {
         return {met->second + 1, false};
       }
-      const std::size_t behind = std::min(at + options_.range_cells, way_.size() - 1);
+      const std::size_t behind = std::min(at + kRangeCells, way_.size() - 1);
       if (behind > at && sees(walk, way_[behind])) return {behind, false};
     }
     go_to(hit.at);
@@ -92,7 +97,7 @@ class FairwayBug {
 
   [[nodiscard]] bool sees(const WallWalk& walk, Cell target) const {
     const Node to = centre_node(target), from = walk.node();
-    const std::int64_t dx = to.x - from.x, dy = to.y - from.y, range = 2 * static_cast<std::int64_t>(options_.range_cells);
+    const std::int64_t dx = to.x - from.x, dy = to.y - from.y, range = 2 * std::int64_t{kRangeCells};
     if (dx * dx + dy * dy > range * range) return false;
     LineWalk line(from, target);
     if (!walk.can_enter(line.cell())) return false;
@@ -126,7 +131,6 @@ class FairwayBug {
 
   const Problem& problem_;
   const Grid& actual_;
-  const FairwayBugOptions& options_;
   Watch watch_;
   Grid map_;   // what is known
   std::vector<Cell> way_;
@@ -137,13 +141,13 @@ class FairwayBug {
 
 }  // namespace
 
-Result fairway_bug(const Problem& problem, const Grid& actual, const RunOptions& run, const FairwayBugOptions& options) {
+Result fairway_bug(const Problem& problem, const Grid& actual, const RunOptions& run) {
   if (actual.width() != problem.grid->width() || actual.height() != problem.grid->height()) {
     return rejected(Fault::kBadParameter);
   }
   if (actual.blocked(problem.start_cell())) return rejected(Fault::kStartBlocked);
   if (actual.blocked(problem.goal_cell())) return rejected(Fault::kGoalBlocked);
-  return FairwayBug(problem, actual, run, options).go();
+  return FairwayBug(problem, actual, run).go();
 }
 
 Result run_fairway_bug(const Problem& problem, const RunOptions& run) { return fairway_bug(problem, *problem.grid, run); }

@@ -7,6 +7,9 @@
 namespace kb::planners {
 namespace {
 
+// Each step is remembered, in some hundred bytes.
+constexpr std::uint64_t kMostFuzzySteps = 4'000'000;
+
 // One robot that goes from cell to cell.
 class FuzzyWalker {
  public:
@@ -76,11 +79,11 @@ FuzzySteering steer(double b, std::uint8_t blocked) {
   return out;
 }
 
-Result plan_fuzzy(const Problem& problem, const FuzzyParameters& parameters, const RunOptions& run) {
+Result plan_fuzzy(const Problem& problem, FuzzyMemory memory, const RunOptions& run) {
   const Grid& grid = *problem.grid;
   const Cell goal = problem.goal_cell();
-  const std::uint64_t limit = parameters.max_steps > 0 ? parameters.max_steps : std::min<std::uint64_t>(200 * grid.free_cells(), kMostFuzzySteps);
-  FuzzyWalker walker(grid, goal, parameters.memory);
+  const std::uint64_t limit = std::min<std::uint64_t>(200 * grid.free_cells(), kMostFuzzySteps);
+  FuzzyWalker walker(grid, goal, memory);
   Watch watch(run);
   std::vector<Cell> path = {problem.start_cell()};
   Outcome outcome = Outcome::kReached;
@@ -88,7 +91,7 @@ Result plan_fuzzy(const Problem& problem, const FuzzyParameters& parameters, con
   Stop stop = Stop::kNone;
   while (path.back() != goal) {
     const bool again = walker.enter(path.back());
-    if (again && parameters.memory == FuzzyMemory::kNone) {
+    if (again && memory == FuzzyMemory::kNone) {
       trap.kind = Trap::Kind::kCycle;
     } else if (path.size() > limit) {
       stop = Stop::kSteps;
@@ -114,10 +117,6 @@ Result plan_fuzzy(const Problem& problem, const FuzzyParameters& parameters, con
 }
 
 // ---- the methods
-Result run_fuzzy(const Problem& problem, const RunOptions& run) { return plan_fuzzy(problem, {}, run); }
-Result run_fuzzy_visits(const Problem& problem, const RunOptions& run) {
-  FuzzyParameters parameters;
-  parameters.memory = FuzzyMemory::kVisits;
-  return plan_fuzzy(problem, parameters, run);
-}
+Result run_fuzzy(const Problem& problem, const RunOptions& run) { return plan_fuzzy(problem, FuzzyMemory::kNone, run); }
+Result run_fuzzy_visits(const Problem& problem, const RunOptions& run) { return plan_fuzzy(problem, FuzzyMemory::kVisits, run); }
 }  // namespace kb::planners

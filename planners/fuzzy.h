@@ -11,14 +11,7 @@ namespace kb::planners {
 
 enum class FuzzyMemory : std::uint8_t { kNone, kVisits };
 
-/// The most steps; each is remembered, in some hundred bytes.
-inline constexpr std::uint64_t kMostFuzzySteps = 4'000'000;
-
-struct FuzzyParameters {
-  FuzzyMemory memory = FuzzyMemory::kNone;
-  std::uint64_t max_steps = 0;   ///< 0: 200 times the free cells, at most kMostFuzzySteps
-};
-
-[[nodiscard]] Result plan_fuzzy(const Problem& problem, const FuzzyParameters& parameters, const RunOptions& run);
+/// Ends after 200 steps for each free cell at the latest, and never takes more than four million.
+[[nodiscard]] Result plan_fuzzy(const Problem& problem, FuzzyMemory memory, const RunOptions& run);
 
 }  // namespace kb::planners

@@ -15,6 +15,8 @@ namespace {
 constexpr std::uint32_t kWalkCap = 60'000;
 constexpr double kClearanceCells = 2.0;  // c_0
 constexpr std::size_t kRepairs = 6;
+constexpr double kCrossoverChance = 0.7;
+constexpr std::uint32_t kStraightenings = 6;   // attempts for each child
 
 struct Individual {
   Walk walk;
@@ -92,11 +94,10 @@ class Judge {
     if (problem_.movers != nullptr) {
       Cell here = problem_.grid->cell(one.walk[0]);
       for (std::size_t i = 0; i < one.walk.size(); ++i) {
-        const std::uint64_t t = options_.first_step + i;
-        if (problem_.movers->taken(here, t)) note(i);
+        if (problem_.movers->taken(here, i)) note(i);
         if (i == steps) break;
         const Cell next = problem_.grid->cell(one.walk[i + 1]);
-        if (problem_.movers->swaps(here, next, t)) note(i + 1);
+        if (problem_.movers->swaps(here, next, i)) note(i + 1);
         here = next;
       }
     }
@@ -196,10 +197,10 @@ class Evolution {
   Individual make_child(Dice& dice) {
     Individual child;
     const Individual& parent = select(dice);
-    if (dice.chance(options_.crossover_chance)) operators_.cross(parent.walk, select(dice).walk, dice, child.walk);
+    if (dice.chance(kCrossoverChance)) operators_.cross(parent.walk, select(dice).walk, dice, child.walk);
     else child.walk = parent.walk;
     if (dice.chance(options_.mutation_chance)) operators_.mutate(child.walk, dice);
-    for (std::uint32_t i = 0; i < options_.straightenings; ++i) operators_.straighten(child.walk, dice);
+    for (std::uint32_t i = 0; i < kStraightenings; ++i) operators_.straighten(child.walk, dice);
     // Among moving obstacles, waits and detours that look like loops may be what keeps a walk free of conflicts.
     if (!waits() || dice.below(4) == 0) operators_.erase_loops(child.walk);
     if (waits()) repair(child, dice);
@@ -271,8 +272,7 @@ bool is_usable(const GeneticOptions& options) {
                        is_share(w.conflicts) &&
                        std::abs(w.length + w.smoothness + w.time + w.clearance + w.conflicts - 1.0) < 1e-9;
   const bool course = !options.course_rad || std::isfinite(*options.course_rad);
-  return weights && course && options.population >= 2 && is_share(options.crossover_chance) &&
-         is_share(options.mutation_chance);
+  return weights && course && options.population >= 2 && is_share(options.mutation_chance);
 }
 
 }  // namespace

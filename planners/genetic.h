@@ -34,13 +34,10 @@ struct GeneticOptions {
   /// constant, it would be a constant factor and change nothing.)
   std::optional<double> course_rad = std::nullopt;
   std::uint32_t population = 60;       ///< at least 2; the best tenth survives unchanged
-  double crossover_chance = 0.7;
   double mutation_chance = 0.4;
-  std::uint32_t straightenings = 6;    ///< attempts for each child
   std::uint32_t max_generations = 300;
   std::uint32_t stagnation = 25;       ///< ends after this many generations without a better individual
   double target = 1.0;                 ///< a fitness that is good enough to end with, of a walk without conflicts
-  std::uint64_t first_step = 0;        ///< time step at the start
   std::uint32_t earliest_arrival = 0;  ///< steps; before, the goal is not free for good
   std::uint32_t horizon = 0;           ///< the most steps of a walk, the depth of planning; 0: no limit
 };

@@ -2,7 +2,6 @@
 // the same goal.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "planners/method.h"
 
 #include <array>
-#include <utility>
 
 #include "planners/methods.h"
 

@@ -30,8 +30,6 @@ enum class NeuralForm : std::uint8_t {
   kLogSum,     ///< F3: the same equilibrium in logarithms; does not underflow
   kMax,        ///< F4: y_i = max_j gamma* w_ij y_j, gamma* = 2^(-1/(2(sqrt(2)-1))): then y = gamma*^d, d the octile distance
 };
-/// F4's gain: a straight link costs 1 and a diagonal one sqrt(2) exactly.
-inline constexpr double kNeuralMaxGain = 0.43313636839134273;
 
 enum class UpdateOrder : std::uint8_t {
   kJacobi,      ///< all neurons at once

@@ -8,7 +8,6 @@
 // with d = ||q - goal||, q in metres.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "planners/clearance.h"

@@ -45,7 +45,7 @@ std::uint64_t spread(const Grid& grid, std::vector<double>& levels, std::vector<
 /// A path from a cell to the first cell on it from which the rest of the way is known, such that path and rest together are shortest.
 /// `rest`: by index, the length from there on in cells; infinite where it is not known. Includes both ends; empty if no such cell can be
 /// reached. O(cells nearer than path and rest).
-[[nodiscard]] std::vector<Cell> shortest_to_entry(const Grid& grid, Cell from, const std::vector<float>& rest, Watch* watch = nullptr);
+[[nodiscard]] std::vector<Cell> shortest_to_entry(const Grid& grid, Cell from, const std::vector<float>& rest, Watch* watch);
 
 /// Descends a distance field to a source. Each move is the one with the largest drop per length, ties to the lowest direction. The field
 /// must be exact along the path. Empty if `from` is unreached.

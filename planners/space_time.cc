@@ -37,20 +37,19 @@ class SpaceTimeSearch {
  private:
   void expand(std::uint32_t number, const State& state) {
     if (state.step >= question_.horizon) return;
-    const std::uint64_t t = question_.first_step + state.step;
     const Cell here = grid_.cell(state.at);
     reach(state.at, state.step + 1, number);
     for (int k = 0; k < 8; ++k) {
       if (!grid_.can_move(here, k)) continue;
       const Cell to = here + kDirections[static_cast<std::size_t>(k)];
-      if (!movers_.swaps(here, to, t)) reach(grid_.index(to), state.step + 1, number);
+      if (!movers_.swaps(here, to, state.step)) reach(grid_.index(to), state.step + 1, number);
     }
   }
 
   void reach(CellIndex at, std::uint32_t step, std::uint32_t before) {
     // A robot that would be at the goal too early has to spend the remaining time anyway.
     const std::uint32_t sum = std::max(distances_[at] == kNoWay ? kNoWay : step + distances_[at], question_.earliest_arrival);
-    if (sum > question_.horizon || movers_.taken(grid_.cell(at), question_.first_step + step)) return;
+    if (sum > question_.horizon || movers_.taken(grid_.cell(at), step)) return;
     if (step >= seen_.size()) seen_.resize(step + 1);
     auto& row = seen_[step];
     if (row.empty()) row.assign(grid_.size() / 64 + 1, 0);

@@ -11,7 +11,6 @@ namespace kb::planners {
 
 struct TimedQuestion {
   Cell from = {}, to = {};
-  std::uint64_t first_step = 0;         ///< time step at `from`
   std::uint32_t earliest_arrival = 0;   ///< steps; before, the goal is not free for good
   std::uint32_t horizon = 1024;         ///< the most steps of a walk
 };

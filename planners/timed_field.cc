@@ -37,9 +37,7 @@ class TimedField {
   }
 
  private:
-  [[nodiscard]] bool taken(CellIndex at, std::uint32_t t) const {
-    return movers_.taken(grid_.cell(at), question_.first_step + t);
-  }
+  [[nodiscard]] bool taken(CellIndex at, std::uint32_t t) const { return movers_.taken(grid_.cell(at), t); }
 
   float best(CellIndex at, std::uint32_t t, const std::vector<float>& later, CellIndex goal) {
     if (taken(at, t)) return kNever;
@@ -52,7 +50,7 @@ class TimedField {
       const auto kk = static_cast<std::size_t>(k);
       const auto to = grid_.neighbour(at, kk);
       const float length = later[to] + static_cast<float>(kMoveLengths[kk]);
-      if (length >= least || movers_.swaps(here, here + kDirections[kk], question_.first_step + t)) continue;
+      if (length >= least || movers_.swaps(here, here + kDirections[kk], t)) continue;
       least = length;
       choice = static_cast<std::uint8_t>(k);
     }

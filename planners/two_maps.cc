@@ -1,17 +1,38 @@
-#include "planners/two_maps.h"
-
+// The method of two maps (Filimonov and Filimonov 2019): lines of force lay the route, and isolines of the repulsion lead round
+// obstacles, like meridians and parallels. The paper gives the condition of the bypass, without a number,
+//
+//   < q', grad U_rep(q) > = 0
+//
+// but does not say when to switch. The states are ours:
+//
+//   ROUTE   q' = F(q), until the robot is caught or too near to an obstacle. There C = U_rep, and d_h is the distance to the goal.
+//   BYPASS  along the isoline U_rep = C, on the side that the attraction prefers; like a bug, the robot keeps that side to the end.
+//   EXIT    when the attraction points away from the obstacle and the goal is nearer than d_h. Exits come ever nearer to the goal,
+//           so the number of bypasses is finite.
+//   ROUND   when the robot is back at the entry, it tries the other side once. After that the isoline is known to be closed round
+//           the robot or the goal.
+//
+// Isolines of the nearest distance are offset curves p = const. Two walls nearer than 2p merge and close the passage, so the method
+// starts with p = 1 cell and, if that fails, goes on from there with 0.5 and 0.3. The path contains all that is driven, since a robot
+// that knows only what is near cannot try beforehand which p will do.
+//
+// Knowledge: local range, but for one word of the answer. That all isolines are closed proves nothing about passages that are narrower than they,
+// so in the end a flood fill of the whole map says whether the answer is kUnreachable or kLimit. The path does not depend on it.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "planners/check.h"
 #include "planners/methods.h"
+#include "planners/potential.h"
 #include "planners/shortest.h"
 #include "planners/trap.h"
 
 namespace kb::planners {
 namespace {
+
+constexpr double kStepCells = 0.1;
+constexpr std::uint64_t kMostStepsEach = 100000;   ///< for each clearance
 
 enum class End : std::uint8_t { kReached, kClosed, kSteps, kStopped, kStuck };
 
@@ -21,15 +42,14 @@ Point left_of(Point v) { return {-v.y, v.x}; }
 class TwoMaps {
  public:
   // Begins where `path` ends, and continues it.
-  TwoMaps(const Problem& problem, const PotentialField& field, double clearance_m, const TwoMapsParameters& parameters,
-          Watch& watch, std::vector<Point>& path)
+  TwoMaps(const Problem& problem, const PotentialField& field, double clearance_m, Watch& watch, std::vector<Point>& path)
       : grid_(*problem.grid), field_(field), watch_(watch), goal_(problem.goal), clearance_m_(clearance_m),
-        step_m_(parameters.step_cells * grid_.cell_m()), tolerance_m_(problem.goal_tolerance_cells * grid_.cell_m()),
-        max_steps_(parameters.max_steps), trap_(grid_.cell_m()), at_(path.back()), path_(path) {}
+        step_m_(kStepCells * grid_.cell_m()), tolerance_m_(problem.goal_tolerance_cells * grid_.cell_m()),
+        trap_(grid_.cell_m()), at_(path.back()), path_(path) {}
 
   End run() {
     while (distance(at_, goal_) >= tolerance_m_) {
-      if (++steps > max_steps_) return End::kSteps;
+      if (++steps > kMostStepsEach) return End::kSteps;
       if (watch_.stopped()) return End::kStopped;
       if (const auto end = bypassing_ ? bypass() : route()) return *end;
     }
@@ -126,7 +146,6 @@ class TwoMaps {
   Watch& watch_;
   Point goal_;
   double clearance_m_, step_m_, tolerance_m_;
-  std::uint64_t max_steps_;
   TrapDetector trap_;
   Point at_, entry_;
   std::vector<Point>& path_;
@@ -136,19 +155,19 @@ class TwoMaps {
 
 }  // namespace
 
-Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters, const RunOptions& run) {
-  if (!in_range(parameters.field) || !(parameters.step_cells > 0.0)) return rejected(Fault::kBadParameter);
+Result run_two_maps(const Problem& problem, const RunOptions& run) {
   if (auto refused = refuse_start_on_rim(problem)) return *std::move(refused);
   const Grid& grid = *problem.grid;
-  const GridClearance clearance(grid, parameters.field.zone_cells * grid.cell_m());
-  const PotentialField field(clearance, problem.goal, grid.cell_m(), parameters.field);
+  const PotentialParameters parameters;
+  const GridClearance clearance(grid, parameters.zone_cells * grid.cell_m());
+  const PotentialField field(clearance, problem.goal, grid.cell_m(), parameters);
   Watch watch(run);
   Result result = ended(Outcome::kLimit);
   result.path.push_back(problem.start);
   End end = End::kSteps;
   double bypasses = 0.0, used = 0.0, drives = 0.0;
   for (const double cells : {1.0, 0.5, 0.3}) {
-    TwoMaps attempt(problem, field, cells * grid.cell_m(), parameters, watch, result.path);
+    TwoMaps attempt(problem, field, cells * grid.cell_m(), watch, result.path);
     end = attempt.run();
     result.statistics.steps += attempt.steps;
     bypasses += static_cast<double>(attempt.bypasses);
@@ -173,7 +192,5 @@ Result plan_two_maps(const Problem& problem, const TwoMapsParameters& parameters
   result.statistics.more.emplace_back("no room", end == End::kStuck ? 1.0 : 0.0);
   return result;
 }
-
-Result run_two_maps(const Problem& problem, const RunOptions& run) { return plan_two_maps(problem, {}, run); }
 
 }  // namespace kb::planners

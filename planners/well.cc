@@ -1,7 +1,6 @@
 #include "planners/well.h"
 
 #include <algorithm>
-#include <array>
 #include <bitset>
 #include <queue>
 #include <utility>

@@ -49,18 +49,19 @@ struct Duration {
   template <class D, class N>
   static constexpr Duration rounded(N count);
 };
-template <std::integral N>
-[[nodiscard]] constexpr Duration microseconds(N n) {
+namespace detail {
+/// `n` times so many microseconds, at most the longest duration; 0 below 0.
+template <std::uint32_t kMicroseconds, std::integral N>
+[[nodiscard]] constexpr Duration lasting(N n) {
   if (n <= 0) return {};
   const auto whole = static_cast<std::uint64_t>(n);
-  return Duration(whole > 0xFFFF'FFFFu ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(whole));
+  return Duration(whole > 0xFFFF'FFFFu / kMicroseconds ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(whole) * kMicroseconds);
 }
+}  // namespace detail
 template <std::integral N>
-[[nodiscard]] constexpr Duration milliseconds(N n) {
-  if (n <= 0) return {};
-  const auto whole = static_cast<std::uint64_t>(n);
-  return Duration(whole > 4'294'967u ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(whole) * 1'000u);
-}
+[[nodiscard]] constexpr Duration microseconds(N n) { return detail::lasting<1>(n); }
+template <std::integral N>
+[[nodiscard]] constexpr Duration milliseconds(N n) { return detail::lasting<1'000>(n); }
 /// Rounds to the nearest microsecond; NaN gives 0. `milliseconds` and `microseconds` reject floating point, since 0.02 of them would
 /// come to nothing.
 [[nodiscard]] constexpr Duration seconds(double s) {
@@ -82,11 +83,7 @@ template <std::integral N>
   return Duration(us > 0xFFFF'FFFFu ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(us));
 }
 template <std::integral N>
-[[nodiscard]] constexpr Duration seconds(N n) {
-  if (n <= 0) return {};
-  const auto whole = static_cast<std::uint64_t>(n);
-  return Duration(whole > 4'294u ? 0xFFFF'FFFFu : static_cast<std::uint32_t>(whole) * 1'000'000u);
-}
+[[nodiscard]] constexpr Duration seconds(N n) { return detail::lasting<1'000'000>(n); }
 template <class D, class N>
 constexpr Duration Duration::rounded(N count) {
   constexpr auto kNum = static_cast<std::uint64_t>(D::period::num), kDen = static_cast<std::uint64_t>(D::period::den);

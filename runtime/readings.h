@@ -99,7 +99,6 @@ struct NumberArray {
   NumberArray() = default;
   NumberArray(const NumberArray&) = delete;
   NumberArray& operator=(const NumberArray&) = delete;
-  static constexpr std::uint32_t kSize = kCount;
   NumberElement<Store> operator[](std::uint32_t i) {
     return {static_cast<Store*>(static_cast<void*>(this)), kFirst + (i < kCount ? i : kCount - 1)};
   }

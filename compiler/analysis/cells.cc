@@ -1,6 +1,5 @@
 // Reports cells that nothing sets, reads, sees or wants.
 #include <algorithm>
-#include <functional>
 
 #include <fmt/format.h>
 

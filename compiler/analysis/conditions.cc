@@ -129,17 +129,21 @@ class ConditionQuestions {
   /// To be cleared before each question.
   [[nodiscard]] std::vector<bool>::reference settled(std::uint32_t rule) { return settled_[subject_.family[rule]]; }
 
-  /// The instances that can never fire, of rules all of whose instances so far cannot.
-  [[nodiscard]] ByFamily<bool> find_dead_ends() {
+  /// The instances of which the test is true, of rules all of whose instances so far pass it.
+  template <class Test>
+  [[nodiscard]] ByFamily<bool> all_of(Test&& test) {
     settled_.assign(subject_.instances.size(), false);
-    ByFamily<bool> dead(subject_);
+    ByFamily<bool> found(subject_);
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
       const Rule& rule = program_.rules[i];
       if (Subject::generated(rule) || settled(i)) continue;
-      if (impossible({{rule.condition, true}}, rule.level)) dead.add(RuleId{i}, true);
+      if (test(rule)) found.add(RuleId{i}, true);
       else settled(i) = true;
     }
-    return dead;
+    return found;
+  }
+  [[nodiscard]] ByFamily<bool> find_dead_ends() {
+    return all_of([&](const Rule& rule) { return impossible({{rule.condition, true}}, rule.level); });
   }
 
   void diagnose_dead_ends() {
@@ -205,15 +209,10 @@ class ConditionQuestions {
   }
 
   void diagnose_always_true() {
-    settled_.assign(subject_.instances.size(), false);
-    ByFamily<bool> always(subject_);
-    for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
-      const Rule& rule = program_.rules[i];
-      if (Subject::generated(rule) || settled(i)) continue;
+    const ByFamily<bool> always = all_of([&](const Rule& rule) {
       const Goal goal{rule.condition, false};
-      if (wide_satisfier_.together({&goal, 1}, rule.level) == Answer::kNo) always.add(RuleId{i}, true);
-      else settled(i) = true;
-    }
+      return wide_satisfier_.together({&goal, 1}, rule.level) == Answer::kNo;
+    });
     always_true_.assign(subject_.instances.size(), false);
     always.for_each([&](RuleId id, bool, std::uint32_t count) {
       const std::uint32_t family = subject_.family[program::index(id)];

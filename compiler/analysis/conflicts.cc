@@ -107,8 +107,7 @@ class ConflictQuestions {
       if (!program_.rules[i].reset) continue;
       for (const Write& write : program_.rules[i].writes) reset_.push_back(write.cell);
     }
-    std::sort(reset_.begin(), reset_.end());
-    reset_.erase(std::unique(reset_.begin(), reset_.end()), reset_.end());
+    source::sort_unique(reset_);
   }
 
   /// Most things are contested by nobody. Those are sorted out first, with a few bits for each thing.

@@ -359,8 +359,7 @@ std::vector<std::size_t> Confusions::sharing_before(std::size_t perceived) {
       sharers.others.push_back(perceived);
     }
   }
-  std::sort(sharing.begin(), sharing.end());
-  sharing.erase(std::unique(sharing.begin(), sharing.end()), sharing.end());
+  source::sort_unique(sharing);
   return sharing;
 }
 

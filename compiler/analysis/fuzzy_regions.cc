@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "compiler/source/texts.h"
+
 namespace kb::analysis {
 namespace {
 
@@ -37,8 +39,7 @@ std::vector<Piece> cut(const fuzzy::Input& input) {
   }
   std::erase_if(corners, [&](double x) { return !(x > input.low && x < input.high); });
   corners.insert(corners.end(), {input.low, input.high});
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  source::sort_unique(corners);
 
   std::vector<Piece> pieces;
   std::map<std::vector<std::uint8_t>, std::size_t> known;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "compiler/source/texts.h"
+
 namespace kb::analysis {
 
 using fuzzy::Node;
@@ -51,8 +53,7 @@ std::string FuzzyShadows::key(std::uint32_t id) const {
 FuzzyShadows::Parts FuzzyShadows::parts(const std::vector<std::uint32_t>& nodes, Texts& texts) {
   Parts all;
   for (const std::uint32_t node : nodes) all.push_back(number(node, texts));
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  source::sort_unique(all);
   return all;
 }
 
@@ -80,8 +81,7 @@ FuzzyShadows::Parts FuzzyShadows::handles(std::uint32_t rule) const {
   const std::uint32_t rarest = *std::min_element(of_[rule].begin(), of_[rule].end(), [&](std::uint32_t a, std::uint32_t b) { return uses_[a] < uses_[b]; });
   Parts all{rarest};
   for (const Parts& one : alternatives_[rarest]) all.push_back(one.front());
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  source::sort_unique(all);
   return all;
 }
 
@@ -90,8 +90,7 @@ FuzzyShadows::Parts FuzzyShadows::questions(std::uint32_t rule) const {
   for (const std::uint32_t part : of_[rule]) {
     for (const Parts& one : alternatives_[part]) all.insert(all.end(), one.begin(), one.end());
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  source::sort_unique(all);
   return all;
 }
 

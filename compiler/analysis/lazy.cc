@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "compiler/analysis/subject.h"
+#include "compiler/analysis/writers.h"
 #include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 
@@ -161,19 +162,12 @@ class Lazy {
 
   /// The rules that write a cell by name or with the rest of its group, ascending.
   [[nodiscard]] std::vector<RuleId> writers_of(CellId cell) {
-    if (by_cell_.empty()) {
-      by_cell_.resize(program_.cells.size());
-      by_group_.resize(program_.exclusive.size());
-      for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
-        for (const program::Write& write : program_.rules[i].writes) by_cell_[program::index(write.cell)].push_back(RuleId{i});
-        for (const std::uint32_t group : program_.rules[i].clears) by_group_[group].push_back(RuleId{i});
-      }
-    }
-    const std::vector<RuleId>& named = by_cell_[program::index(cell)];
+    if (!writers_) writers_.emplace(program_);
+    const std::vector<RuleId>& named = writers_->by_name[program::index(cell)];
     const std::uint32_t group = subject_.group_of[program::index(cell)];
     if (group == program::kNoGroup) return named;
     std::vector<RuleId> all;
-    std::set_union(named.begin(), named.end(), by_group_[group].begin(), by_group_[group].end(), std::back_inserter(all));
+    std::set_union(named.begin(), named.end(), writers_->by_clear[group].begin(), writers_->by_clear[group].end(), std::back_inserter(all));
     return all;
   }
 
@@ -189,7 +183,7 @@ class Lazy {
   std::vector<bool> reads_;                               // by condition: whether it reads a lazy fact
   std::vector<program::Alternatives> alternatives_;       // by place
   std::vector<std::vector<CellId>> users_;                // by place: the facts that are defined by it
-  std::vector<std::vector<RuleId>> by_cell_, by_group_;   // who writes it
+  std::optional<Writers> writers_;                        // made at the first question
   std::set<CellId> blind_;                                // of the rule at hand: see `look_through`
   std::set<std::tuple<std::uint32_t, CellId, Op>> told_;  // reported: rule as written, fact, and `event`, `lost`, or `not` for a blind one
 };

@@ -5,8 +5,6 @@
 #include <string_view>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 

@@ -22,14 +22,11 @@ std::string_view comment_of(std::string_view line) {
 /// The names that a line's comment allows: the first word of each item.
 void add_names(std::string_view line, std::vector<std::string_view>& names) {
   if (line.find(kWord) == std::string_view::npos) return;
-  std::string_view rest = comment_of(line);
-  if (!rest.starts_with(kWord)) return;
-  rest.remove_prefix(kWord.size());
-  for (std::size_t comma = 0; comma != std::string_view::npos;) {
-    comma = rest.find(',');
-    const std::string_view item = source::trimmed(rest.substr(0, comma));
+  const std::string_view comment = comment_of(line);
+  if (!comment.starts_with(kWord)) return;
+  for (const std::string_view part : source::split(comment.substr(kWord.size()), ',')) {
+    const std::string_view item = source::trimmed(part);
     names.push_back(item.substr(0, item.find_first_of(" \t;:")));
-    rest.remove_prefix(comma == std::string_view::npos ? 0 : comma + 1);
   }
 }
 

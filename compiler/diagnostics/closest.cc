@@ -76,10 +76,9 @@ bool is_slip_of(std::string_view written, std::string_view meant) {
   if (meant.size() < 4) return false;
   const std::string_view shorter = written.size() < meant.size() ? written : meant, longer = written.size() < meant.size() ? meant : written;
   if (longer.size() - shorter.size() > 1) return false;
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   std::size_t at = 0;
   while (at < shorter.size() && shorter[at] == longer[at]) ++at;
-  if (digit(longer[at]) && (longer.size() > shorter.size() || digit(shorter[at]))) return false;
+  if (source::is_digit(longer[at]) && (longer.size() > shorter.size() || source::is_digit(shorter[at]))) return false;
   if (longer.size() > shorter.size()) return shorter.substr(at) == longer.substr(at + 1);
   const bool swapped = at + 1 < longer.size() && shorter[at] == longer[at + 1] && shorter[at + 1] == longer[at] && shorter.substr(at + 2) == longer.substr(at + 2);
   return swapped || shorter.substr(at + 1) == longer.substr(at + 1);

@@ -5,6 +5,7 @@
 
 #include "compiler/diagnostics/consumers.h"
 #include "compiler/diagnostics/place.h"
+#include "compiler/source/encoding.h"
 
 namespace kb::diagnostics {
 namespace {
@@ -41,9 +42,7 @@ std::string uri(std::string_view path) {
   std::string out;
   if (path.starts_with("/")) out = "file://";
   for (const char c : path) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       std::string_view("-._~/").find(c) != std::string_view::npos;
-    if (plain) out += c;
+    if (source::is_letter_or_digit(c) || std::string_view("-._~/").find(c) != std::string_view::npos) out += c;
     else fmt::format_to(std::back_inserter(out), "%{:02X}", static_cast<unsigned char>(c));
   }
   return out;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "compiler/diagnostics/display.h"
@@ -154,6 +155,15 @@ bool Diagnostics::Said::operator<(const Said& that) const {
     return std::tie(s.kind, s.span.file, s.span.begin, s.span.end, s.other.file, s.other.begin, s.other.end, s.message);
   };
   return key(*this) < key(that);
+}
+
+std::optional<source::FileId> open_file(const std::string& path, const source::FileSystem& files, source::Sources& sources,
+                                        Diagnostics& diagnostics) {
+  auto read = files.read(path);
+  if (read.bytes) return sources.add(path, std::move(*read.bytes));
+  if (read.too_large) diagnostics.report(Kind::kFileTooLarge, {}, {path, std::to_string(source::kMaxFileBytes >> 20)});
+  else diagnostics.report(Kind::kCannotRead, {}, {path, read.error});
+  return std::nullopt;
 }
 
 }  // namespace kb::diagnostics

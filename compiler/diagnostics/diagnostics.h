@@ -203,4 +203,8 @@ class Diagnostics {
 /// another name: `follow_rail` is not a misspelt `follow_wall`. Names of less than four letters are never taken for slips.
 [[nodiscard]] bool is_slip_of(std::string_view written, std::string_view meant);
 
+/// Reads a file into `sources`. If it cannot be read, reports that and returns nothing.
+[[nodiscard]] std::optional<source::FileId> open_file(const std::string& path, const source::FileSystem& files, source::Sources& sources,
+                                                      Diagnostics& diagnostics);
+
 }  // namespace kb::diagnostics

@@ -43,8 +43,14 @@ std::size_t start_of(std::string_view line, std::size_t begin) {
   return start;
 }
 
-}  // namespace
+/// One code point at the front of a text, as a terminal shows it.
+struct Glyph {
+  std::size_t bytes = 0;    ///< how many bytes of the text it takes; 0 at the end
+  std::string shown;        ///< itself, blanks for a tab, `<1B>` for a byte or `<U+200E>` for a character that is not shown
+  std::size_t columns = 0;  ///< width: 0 for combining marks, 2 for wide characters
+};
 
+/// The glyph at `text[at]`, where `column` columns stand before it (for tabs, which end at multiples of 4).
 Glyph glyph(std::string_view text, std::size_t at, std::size_t column) {
   if (at >= text.size()) return {};
   const source::CodePoint c = source::code_point(text.substr(at));
@@ -63,6 +69,8 @@ Glyph glyph(std::string_view text, std::size_t at, std::size_t column) {
   const std::size_t width = in(kZeroWide, c.value) ? 0 : in(kWide, c.value) ? 2 : 1;
   return {c.bytes, std::string(text.substr(at, c.bytes)), width};
 }
+
+}  // namespace
 
 std::string between_backticks(std::string_view text) {
   if (text.empty()) return "\"\"";

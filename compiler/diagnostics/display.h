@@ -10,16 +10,6 @@
 
 namespace kb::diagnostics {
 
-/// One code point at the front of a text, as a terminal shows it.
-struct Glyph {
-  std::size_t bytes = 0;    ///< how many bytes of the text it takes; 0 at the end
-  std::string shown;        ///< itself, blanks for a tab, `<1B>` for a byte or `<U+200E>` for a character that is not shown
-  std::size_t columns = 0;  ///< width: 0 for combining marks, 2 for wide characters
-};
-
-/// The glyph at `text[at]`, where `column` columns stand before it (for tabs, which end at multiples of 4).
-[[nodiscard]] Glyph glyph(std::string_view text, std::size_t at, std::size_t column);
-
 /// `text` with everything spelled out that a terminal would obey: control characters, marks of direction, broken UTF-8.
 [[nodiscard]] std::string visible(std::string_view text);
 

@@ -3,14 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "compiler/tables/compact.h"
 
 namespace kb::emit {
-
-const char* index_type(const CppInput& in) { return in.tables.narrow ? "std::uint16_t" : "std::uint32_t"; }
 
 std::string float_literal(float value) {
   std::string text = fmt::format("{}", value);
@@ -32,6 +29,8 @@ std::string membership_row(const mts::Membership& m) {
 }
 
 namespace {
+
+const char* index_type(const CppInput& in) { return in.tables.narrow ? "std::uint16_t" : "std::uint32_t"; }
 
 using Out = std::back_insert_iterator<std::string>;
 

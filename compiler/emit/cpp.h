@@ -22,8 +22,6 @@ struct CppInput {
   TypeNames types;
 };
 
-/// "std::uint16_t" or "std::uint32_t".
-[[nodiscard]] const char* index_type(const CppInput& in);
 /// A float literal that reads back as the same float: "0.75f".
 [[nodiscard]] std::string float_literal(float value);
 /// The same, or `mts::kInfinity`.

@@ -1,8 +1,6 @@
 // Fuzzy controllers: the typed interface, and the constants for runtime/fuzzy.h. The rules as code are in cpp_fuzzy_code.cc.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "compiler/emit/cpp.h"
 #include "compiler/emit/cpp_fuzzy.h"
 

@@ -1,7 +1,6 @@
 // Inside the C++ emitter: the rules of one scope of straight code.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -1,13 +1,11 @@
 // The picture of the map, with routes and detours.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
-#include <unordered_map>
 
 #include "compiler/emit/dot.h"
 

@@ -5,16 +5,14 @@
 #include <algorithm>
 
 #include "compiler/emit/reserved_words.h"
+#include "compiler/source/encoding.h"
 #include "compiler/source/fingerprint.h"
 #include "compiler/tables/names.h"
 
 namespace kb::emit {
 namespace {
 
-bool part_of_identifier(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-         (static_cast<unsigned char>(c) & 0x80u) != 0;
-}
+bool part_of_identifier(char c) { return source::is_letter_or_digit(c) || (static_cast<unsigned char>(c) & 0x80u) != 0; }
 
 }  // namespace
 
@@ -25,7 +23,7 @@ std::string identifier(std::string_view name) {
     else if (!out.empty() && out.back() != '_') out += '_';
   }
   while (!out.empty() && out.back() == '_') out.pop_back();
-  if (out.empty() || (out.front() >= '0' && out.front() <= '9')) out.insert(0, "n");
+  if (out.empty() || source::is_digit(out.front())) out.insert(0, "n");
   if (is_reserved(out)) out += '_';
   return out;
 }

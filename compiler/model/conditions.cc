@@ -303,14 +303,6 @@ Outcome Conditions::report_many(const Pattern& pattern, const Operand& operand) 
   return Outcome::kBroken;
 }
 
-Outcome Conditions::report_no_cell(const Pattern& pattern, const Operand& operand) {
-  const bool row = operand.kind == Operand::Kind::kRow || operand.kind == Operand::Kind::kRelation;
-  if (row && draft_.library_missing) return Outcome::kBroken;   // the library declares the relation with a state
-  draft_.diagnostics.report(row ? Kind::kNoState : Kind::kNotACell, references_.span(pattern.ref),
-                            {references_.text(pattern.ref), references_.describe(operand)});
-  return Outcome::kBroken;
-}
-
 /// `sat X` is true if anything draws attention to X.
 Outcome Conditions::satellites_of(const Pattern& pattern, CellId cell, std::vector<CellId>& out) {
   const Cell& known = draft_.model[cell];
@@ -337,7 +329,7 @@ Outcome Conditions::evaluate_is(const Pattern& pattern, Environment values, Cond
   }
   const auto cell = references_.cell_of(operand);
   if (!cell && operand.kind != Operand::Kind::kRow && references_.cells_of(operand)) return report_many(pattern, operand);
-  if (!cell) return report_no_cell(pattern, operand);
+  if (!cell) return references_.report_no_cell(pattern.ref, operand);
   if (!pattern.sat) {
     made = ask(Cond::Op::kIs, *cell, pattern.term);
     return Outcome::kMade;
@@ -359,7 +351,7 @@ Outcome Conditions::evaluate_any(const Pattern& pattern, Environment values, Con
     return Outcome::kBroken;
   }
   const auto cells = references_.cells_of(operand);
-  if (!cells) return report_no_cell(pattern, operand);
+  if (!cells) return references_.report_no_cell(pattern.ref, operand);
   if (pattern.event != Cond::Op::kIs && !all_facts(*cells)) return report_non_fact(pattern, operand);
   std::vector<CellId> asked;
   for (const CellId cell : *cells) {

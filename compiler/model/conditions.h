@@ -1,19 +1,11 @@
 // Conditions, read in two steps as references are (references.h).
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "compiler/model/references.h"
 
 namespace kb::model {
-
-/// How the making of an instance of a rule ended.
-enum class Outcome : std::uint8_t {
-  kMade,
-  kMissing,  ///< a field that it needs is not there: no instance
-  kBroken,   ///< reported
-};
 
 class Conditions {
  public:
@@ -58,7 +50,6 @@ class Conditions {
   [[nodiscard]] bool all_facts(const std::vector<CellId>& cells) const;
   Outcome report_non_fact(const Pattern& pattern, const Operand& operand);
   Outcome report_many(const Pattern& pattern, const Operand& operand);
-  Outcome report_no_cell(const Pattern& pattern, const Operand& operand);
   Outcome satellites_of(const Pattern& pattern, CellId cell, std::vector<CellId>& out);
   CondId ask(Cond::Op op, CellId cell, syntax::Term term = syntax::Term::kHigh);
   CondId negate(CondId part);

@@ -167,6 +167,10 @@ struct Draft {
       }
     }
   }
+  /// Declares what is to be the `id`-th of its kind; if it is not `sound`, which is reported, its name as something broken. Whether to add it.
+  bool declare(const syntax::Name& name, Entity::Kind kind, std::size_t id, bool sound) {
+    return names.declare(name, {sound ? kind : Entity::Kind::kBroken, static_cast<std::uint32_t>(id), {}}, diagnostics) && sound;
+  }
   [[nodiscard]] bool standard(source::Span span) const {
     return span.known() && diagnostics.sources().standard(span.file);
   }

@@ -96,13 +96,7 @@ Outcome Effects::evaluate_one(const Pattern& pattern, Environment values, Writes
   if (const auto cell = references_.cell_of(operand)) return write(pattern, *cell, writes);
   const auto cells = references_.cells_of(operand);
   const std::string_view text = references_.text(pattern.ref);
-  if (!cells) {
-    const bool row = operand.kind == Operand::Kind::kRow || operand.kind == Operand::Kind::kRelation;
-    if (row && draft_.library_missing) return Outcome::kBroken;
-    draft_.diagnostics.report(row ? Kind::kNoState : Kind::kNotACell, references_.span(pattern.ref),
-                              {text, references_.describe(operand)});
-    return Outcome::kBroken;
-  }
+  if (!cells) return references_.report_no_cell(pattern.ref, operand);
   if (operand.kind != Operand::Kind::kCells && text.find('[') == std::string_view::npos) {
     const std::string all = fmt::format("{}[*]", text);
     if (!cells->empty() && !may_write(pattern, cells->front(), all)) return Outcome::kBroken;

@@ -186,4 +186,11 @@ std::optional<std::vector<CellId>> References::cells_of(const Operand& operand) 
   return cells;
 }
 
+Outcome References::report_no_cell(std::uint32_t pattern, const Operand& operand) const {
+  const bool row = operand.kind == Operand::Kind::kRow || operand.kind == Operand::Kind::kRelation;
+  if (row && draft_.library_missing) return Outcome::kBroken;   // the library declares the relation with a state
+  draft_.diagnostics.report(row ? Kind::kNoState : Kind::kNotACell, span(pattern), {text(pattern), describe(operand)});
+  return Outcome::kBroken;
+}
+
 }  // namespace kb::model

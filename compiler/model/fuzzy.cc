@@ -176,10 +176,7 @@ class FuzzyReader : FuzzyHead {
 void declare_fuzzy(Draft& draft) {
   draft.each<syntax::Fuzzy>([&](const syntax::Tree& tree, const auto&, const syntax::Fuzzy& from) {
     std::optional<Controller> controller = FuzzyReader(draft, tree, from).run();
-    const auto id = static_cast<std::uint32_t>(draft.model.fuzzy.size());
-    const Entity entity{controller ? Entity::Kind::kFuzzy : Entity::Kind::kBroken, id, {}};
-    if (!draft.names.declare(from.name, entity, draft.diagnostics) || !controller) return;
-    draft.model.fuzzy.push_back(std::move(*controller));
+    if (draft.declare(from.name, Entity::Kind::kFuzzy, draft.model.fuzzy.size(), controller.has_value())) draft.model.fuzzy.push_back(std::move(*controller));
   });
 }
 

@@ -20,8 +20,7 @@ class Star {
  public:
   void add(double direction_rad) { directions_rad_.push_back(direction_rad); }
   void sort() {
-    std::sort(directions_rad_.begin(), directions_rad_.end());
-    directions_rad_.erase(std::unique(directions_rad_.begin(), directions_rad_.end()), directions_rad_.end());   // both directions of a road
+    source::sort_unique(directions_rad_);   // both directions of a road
   }
   /// From one of them to its nearest neighbour.
   [[nodiscard]] double apart_rad(double direction_rad) const {

@@ -1,6 +1,5 @@
 #include "compiler/model/near_files.h"
 
-#include <cctype>
 #include <utility>
 #include <vector>
 

@@ -47,8 +47,7 @@ class Order {
       const auto part = draft_.perceived_of.find(static_cast<std::uint32_t>(index(percept.cell)));
       if (part != draft_.perceived_of.end()) parts.push_back(part->second);  // the host gives the others
     }
-    std::sort(parts.begin(), parts.end());
-    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    source::sort_unique(parts);
     for (const std::uint32_t part : parts) users_[part].push_back(fact);
   }
 

@@ -53,6 +53,13 @@ struct Operand {
   }
 };
 
+/// How the making of an instance of a rule ended.
+enum class Outcome : std::uint8_t {
+  kMade,
+  kMissing,  ///< a field that it needs is not there: no instance
+  kBroken,   ///< reported
+};
+
 using Environment = std::span<const Operand>;
 
 /// A variable that a reference may use beside the names of the knowledge base.
@@ -100,6 +107,8 @@ class References {
   [[nodiscard]] std::optional<std::vector<CellId>> cells_of(const Operand& operand) const;
   /// The one cell that it stands for, if it is one.
   [[nodiscard]] std::optional<CellId> cell_of(const Operand& operand) const;
+  /// Reports that a pattern stands for no cell. Always kBroken.
+  Outcome report_no_cell(std::uint32_t pattern, const Operand& operand) const;
 
  private:
   struct Argument { bool star = false; std::uint32_t pattern = 0; };

@@ -25,9 +25,7 @@ class SensorReader {
     read_count();
     sensor_.text ? read_text() : read_number();
     read_stale();
-    const auto id = static_cast<std::uint32_t>(draft_.model.sensors.size());
-    const Entity entity{good_ ? Entity::Kind::kSensor : Entity::Kind::kBroken, id, {}};
-    if (!draft_.names.declare(from_.name, entity, draft_.diagnostics) || !good_) return;
+    if (!draft_.declare(from_.name, Entity::Kind::kSensor, draft_.model.sensors.size(), good_)) return;
     if (!draft_.model.sensors.empty()) sensor_.first = draft_.model.sensors.back().first + draft_.model.sensors.back().count;
     if (sensor_.first + sensor_.count > kMaxReadings) {
       draft_.exhausted = true;

@@ -170,9 +170,7 @@ void declare_tables(Draft& draft) {
   draft.each<syntax::Table>([&](const auto&, const auto&, const syntax::Table& from) {
     if (from.more) return;
     std::optional<Table> table = declare_table(draft, from);
-    const auto id = static_cast<std::uint32_t>(draft.model.tables.size());
-    const Entity entity{table ? Entity::Kind::kTable : Entity::Kind::kBroken, id, {}};
-    if (!draft.names.declare(from.name, entity, draft.diagnostics) || !table) return;
+    if (!draft.declare(from.name, Entity::Kind::kTable, draft.model.tables.size(), table.has_value())) return;
     draft.model.tables.push_back(std::move(*table));
     TableReader reader(draft, draft.model.tables.back(), from);
     reader.run();

@@ -5,7 +5,6 @@
 // before it, which is quadratic in the number of strategies. So every 32 neighbours by priority share an `or`, every 32 of those
 // another, and so on; the strategies before U are then at most 31 parts of each size. Up to 32 strategies, as most robots have,
 // this is the plain list.
-#include <algorithm>
 
 #include "compiler/program/conditions.h"
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <optional>
 
 #include "compiler/model/model.h"
 #include "compiler/program/conditions.h"

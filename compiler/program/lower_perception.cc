@@ -1,7 +1,5 @@
 #include "compiler/program/lower_perception.h"
 
-#include <algorithm>
-
 #include "compiler/model/model.h"
 
 namespace kb::program {
@@ -30,8 +28,7 @@ Perception lower_perception(const model::Model& model, const std::vector<CellId>
     made.percepts.push_back(std::move(percept));
   }
   for (Sensor& sensor : made.sensors) {
-    std::sort(sensor.texts.begin(), sensor.texts.end());
-    sensor.texts.erase(std::unique(sensor.texts.begin(), sensor.texts.end()), sensor.texts.end());
+    source::sort_unique(sensor.texts);
   }
   for (const model::Perceived& from : model.perceived) {
     made.perceived.push_back({cell_of[model::index(from.fact)], PerceptId{static_cast<std::uint32_t>(from.percept)}, from.lazy, from.span});

@@ -19,6 +19,12 @@ void append_seconds(std::string& out, std::int64_t time_us) {
   out += digits;
 }
 
+std::string seconds_text(std::int64_t time_us) {
+  std::string text;
+  append_seconds(text, time_us);
+  return text;
+}
+
 void append_key(std::string& out, std::string_view key) {
   out += ",\"";
   out += key;

@@ -266,17 +266,13 @@ CellId attending(const Program& program, const Record& record, CellId fact) {
   return high == satellites.end() ? CellId::kNone : *high;
 }
 
-Reason explain_condition(const Program& program, const Record& record, std::uint32_t level, CondId condition, Detail detail) {
-  const Explainer explainer(program, record, level, detail);
-  return {print_condition(program, condition), explainer.explain(condition, true), explainer.holds(condition)};
-}
-
 RuleStory explain_rule(const Program& program, const Record& record, RuleId rule, Detail detail) {
   RuleStory story;
   story.rule = rule;
   story.outcome = outcome_of(program, record, rule);
+  const Explainer explainer(program, record, program[rule].level, detail);
   for (const CondId part : conjuncts(program, program[rule].condition)) {
-    story.reasons.push_back(explain_condition(program, record, program[rule].level, part, detail));
+    story.reasons.push_back({print_condition(program, part), explainer.explain(part, true), explainer.holds(part)});
   }
   story.text = rule_text(program, record, story);
   return story;

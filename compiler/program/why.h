@@ -92,11 +92,8 @@ struct Reason {
   std::string text;
   bool holds = false;
 };
-/// How much is told of an `or` with many alternatives.
+/// How much is told of an `or` with many alternatives: they are listed one by one if they are few, or all are asked for.
 enum class Detail : std::uint8_t { kBrief, kAll };
-/// Why a condition of a rule of `level` held or not. Alternatives (`or`) are listed one by one if they are few, or all are asked for.
-[[nodiscard]] Reason explain_condition(const Program& program, const Record& record, std::uint32_t level,
-                                       CondId condition, Detail detail = Detail::kBrief);
 
 enum class Outcome : std::uint8_t {
   kFired,

@@ -1,10 +1,11 @@
-// Bytes and characters: recognises files that are not UTF-8 with line ends LF or CRLF, counts code points, trims, converts to lower case.
+// Bytes and characters: recognises files that are not UTF-8 with line ends LF or CRLF, counts code points, trims, splits, converts to lower case.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace kb::source {
 
@@ -48,12 +49,27 @@ inline constexpr std::string_view kForeignQuotes[] = {"\u2018", "\u2019", "\u201
   return text;
 }
 
+/// Of ASCII only, under every locale.
+[[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+[[nodiscard]] constexpr bool is_letter_or_digit(char c) { return (lower(c) >= 'a' && lower(c) <= 'z') || is_digit(c); }
+
 /// The part of `text` without blanks, tabs and line ends at its ends.
 [[nodiscard]] constexpr std::string_view trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
   return text;
+}
+
+/// The parts of `text` between the separators, in order: at least one, which may be empty.
+[[nodiscard]] inline std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return parts;
+    begin = end + 1;
+  }
 }
 
 /// How many code points the text has. O(bytes).

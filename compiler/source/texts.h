@@ -15,6 +15,7 @@
 #include <initializer_list>
 #include <memory_resource>
 #include <string_view>
+#include <vector>
 
 namespace kb::source {
 
@@ -40,5 +41,12 @@ class Texts {
 /// A list that mostly has N items or fewer: up to N are stored inline, more on the heap.
 template <class T, std::size_t N>
 using Few = absl::InlinedVector<T, N>;
+
+/// Sorts the items, and keeps one of those that are equal.
+template <class T>
+void sort_unique(std::vector<T>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
 
 }  // namespace kb::source

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "compiler/source/encoding.h"
 #include "compiler/syntax/scan.h"
 #include "compiler/syntax/syntax.h"
 
@@ -25,9 +26,8 @@ bool is_name(std::string_view text) {
 std::string worded(std::string_view text) {
   constexpr std::size_t kLongest = 200;
   const auto foreign = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
-  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); };
   std::string name(text.substr(0, kLongest));
-  std::replace_if(name.begin(), name.end(), [&](char c) { return !plain(c) && !foreign(c); }, '_');
+  std::replace_if(name.begin(), name.end(), [&](char c) { return !source::is_letter_or_digit(c) && !foreign(c); }, '_');
   if (std::any_of(name.begin(), name.end(), foreign) && !is_name("a" + name)) std::replace_if(name.begin(), name.end(), foreign, '_');
   return name;
 }

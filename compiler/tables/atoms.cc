@@ -49,8 +49,7 @@ class Maker {
   static std::vector<Literal> tidy(std::vector<Literal> parts, bool is_and) {
     const Literal nothing = is_and ? kTrue : kFalse;
     const Literal decided = is_and ? kFalse : kTrue;
-    std::sort(parts.begin(), parts.end());
-    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    source::sort_unique(parts);
     std::erase(parts, nothing);
     std::erase(parts, decided ^ 1u);
     for (std::size_t i = 0; i < parts.size(); ++i) {

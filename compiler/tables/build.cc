@@ -1,7 +1,6 @@
 // From the program to the tables, one table after another.
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "compiler/program/net_effects.h"
 #include "compiler/source/same_number.h"

@@ -211,8 +211,7 @@ class FleetBuilder {
     }
     if (from_a.empty()) return;
     for (Rules* rules : {&from_a, &from_b}) {
-      std::sort(rules->begin(), rules->end());
-      rules->erase(std::unique(rules->begin(), rules->end()), rules->end());
+      source::sort_unique(*rules);
       for (const std::uint32_t r : *rules) rules_.weigh(r, f_.weighed);
     }
     Ref one = any(from_a, begin, end), other = any(from_b, begin, end);

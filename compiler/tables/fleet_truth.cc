@@ -47,8 +47,7 @@ void FleetTruth::make_codes() {
   code_.resize(p_.satellites);
   for (std::uint32_t s = 0; s < p_.satellites; ++s) {
     FleetCode& code = form.satellites.emplace_back();
-    std::sort(values[s].begin(), values[s].end());
-    values[s].erase(std::unique(values[s].begin(), values[s].end()), values[s].end());
+    source::sort_unique(values[s]);
     code.values = values[s];
     while ((std::size_t{1} << code.bits) < code.values.size()) ++code.bits;
     code.first_plane = static_cast<std::uint32_t>(form.planes.size());

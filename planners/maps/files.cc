@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "planners/maps/maps.h"
 #include "planners/maps/words.h"
 
@@ -26,18 +24,6 @@ std::optional<Grid> read_ros_map(source::FileId file, const std::string& path, c
 
 }  // namespace
 
-std::optional<source::FileId> open_file(const std::string& path, const source::FileSystem& files, source::Sources& sources,
-                                        Diagnostics& diagnostics) {
-  auto read = files.read(path);
-  if (read.bytes) return sources.add(path, std::move(*read.bytes));
-  if (read.too_large) {
-    diagnostics.report(Kind::kFileTooLarge, {}, {path, fmt::format("{}", source::kMaxFileBytes >> 20)});
-  } else {
-    diagnostics.report(Kind::kCannotRead, {}, {path, read.error});
-  }
-  return std::nullopt;
-}
-
 std::optional<MapFile> read_map(const std::string& path, const source::FileSystem& files, source::Sources& sources,
                                 Diagnostics& diagnostics) {
   const bool ros = path.ends_with(".yaml") || path.ends_with(".yml");
@@ -45,7 +31,7 @@ std::optional<MapFile> read_map(const std::string& path, const source::FileSyste
     diagnostics.report(Kind::kMapFormat, {}, {path});
     return std::nullopt;
   }
-  const auto file = open_file(path, files, sources, diagnostics);
+  const auto file = diagnostics::open_file(path, files, sources, diagnostics);
   if (!file) return std::nullopt;
   auto grid = ros ? read_ros_map(*file, path, files, sources, diagnostics) : read_movingai_map(*file, diagnostics);
   if (!grid) return std::nullopt;

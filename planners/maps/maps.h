@@ -41,7 +41,7 @@ struct RosMap {
   double occupied_thresh = 0.65;
   double free_thresh = 0.25;      ///< if the file is silent, map_server's own defaults
   bool negate = false;
-  enum class Mode : std::uint8_t { kTrinary, kScale, kRaw } mode = Mode::kTrinary;
+  bool raw = false;               ///< mode `raw`; `trinary` and `scale` are the same to whoever wants to know what is free
 };
 [[nodiscard]] std::optional<RosMap> read_ros_yaml(source::FileId file, diagnostics::Diagnostics& diagnostics);
 
@@ -58,10 +58,6 @@ struct MapFile {
 /// Reads a map by the ending of its name: `.map` is MovingAI's, `.yaml` or `.yml` a ROS map with its image.
 [[nodiscard]] std::optional<MapFile> read_map(const std::string& path, const source::FileSystem& files,
                                               source::Sources& sources, diagnostics::Diagnostics& diagnostics);
-
-/// Reads a file into `sources`. If it cannot be read, reports that and returns nothing.
-[[nodiscard]] std::optional<source::FileId> open_file(const std::string& path, const source::FileSystem& files,
-                                                      source::Sources& sources, diagnostics::Diagnostics& diagnostics);
 
 /// The place that `a,b` names in the frame of a map file. With `in_cells` it is a column and a row, counted from the top.
 [[nodiscard]] std::optional<Point> parse_place(std::string_view text, const Grid& grid, bool in_cells);

@@ -115,7 +115,7 @@ class Pgm {
 // Whether map_server takes the pixel for a free cell. Raw pixels, scaled so that white is 255, are percent; above 100 they mean unknown.
 bool is_free(std::int64_t pixel, std::int64_t white, const RosMap& map) {
   const double shade = static_cast<double>(pixel) / static_cast<double>(white), percent = std::round(shade * 255.0);
-  const double occupied = map.mode == RosMap::Mode::kRaw ? percent / 100.0 : map.negate ? shade : 1.0 - shade;
+  const double occupied = map.raw ? percent / 100.0 : map.negate ? shade : 1.0 - shade;
   return occupied < map.free_thresh && occupied <= map.occupied_thresh;
 }
 

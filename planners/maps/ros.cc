@@ -257,10 +257,9 @@ class MapReader {
   void mode() {
     const Entry* entry = need("mode", false);
     if (entry == nullptr) return;
-    if (entry->value.text == "trinary") map_.mode = RosMap::Mode::kTrinary;
-    else if (entry->value.text == "scale") map_.mode = RosMap::Mode::kScale;
-    else if (entry->value.text == "raw") map_.mode = RosMap::Mode::kRaw;
-    else reject(entry->value.at, entry->value.text, "`trinary`, `scale` or `raw`");
+    const std::string_view text = entry->value.text;
+    map_.raw = text == "raw";
+    if (!map_.raw && text != "trinary" && text != "scale") reject(entry->value.at, text, "`trinary`, `scale` or `raw`");
   }
 
   const Yaml& yaml_;

@@ -15,8 +15,7 @@ Word part(const Word& whole, std::size_t begin, std::size_t count) {
 }
 
 Lines::Lines(const source::Sources& sources, source::FileId file) : bytes_(sources.bytes(file)), file_(file) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (bytes_.starts_with(kByteOrderMark)) at_ = kByteOrderMark.size();
+  if (bytes_.starts_with(source::kByteOrderMark)) at_ = source::kByteOrderMark.size();
 }
 
 Word Lines::next() {

@@ -15,15 +15,10 @@ std::string chance(const ComparedRow::Count& count) {
   return p < 0.0005 ? "< 0.001" : fmt::format("{:.3f}", p);
 }
 
-std::string ratios(const std::vector<double>& of) {
-  if (of.empty()) return "-";
-  return fmt::format("{:.2f} / {:.2f} / {:.2f}", quantile(of, 0.05), quantile(of, 0.5), quantile(of, 0.95));
-}
-
 std::string table_row(const std::string& name, const ComparedRow& row) {
   const ComparedRow::Count& arrive = row.counts[0];
   std::string out = fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |", name, row.pairs, percent(arrive.before, row.pairs), percent(arrive.after, row.pairs),
-                                arrive.only_before, arrive.only_after, chance(arrive), ratios(row.times), ratios(row.lengths));
+                                arrive.only_before, arrive.only_after, chance(arrive), quantiles(row.times, 2), quantiles(row.lengths, 2));
   for (std::size_t i = 1; i < row.counts.size(); ++i) out += fmt::format(" {}, {} |", row.counts[i].before, row.counts[i].after);
   return out + "\n";
 }

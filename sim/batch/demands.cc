@@ -55,14 +55,12 @@ std::optional<Demand> read_demand(std::string_view text, std::span<const std::st
 
 std::optional<std::vector<Demand>> read_demands(std::string_view text, std::span<const std::string_view> names, std::string& why) {
   std::vector<Demand> demands;
-  while (true) {
-    const std::size_t comma = text.find(',');
-    auto demand = read_demand(source::trimmed(text.substr(0, comma)), names, why);
+  for (const std::string_view part : source::split(text, ',')) {
+    auto demand = read_demand(source::trimmed(part), names, why);
     if (!demand) return std::nullopt;
     demands.push_back(std::move(*demand));
-    if (comma == std::string_view::npos) return demands;
-    text.remove_prefix(comma + 1);
   }
+  return demands;
 }
 
 bool holds(const Demand& demand, std::size_t count, std::size_t runs) {

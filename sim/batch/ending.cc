@@ -77,6 +77,11 @@ double quantile(std::vector<double> values, double share) {
   return values[std::max<std::size_t>(rank, 1) - 1];
 }
 
+std::string quantiles(const std::vector<double>& values, int digits) {
+  if (values.empty()) return "-";
+  return fmt::format("{1:.{0}f} / {2:.{0}f} / {3:.{0}f}", digits, quantile(values, 0.05), quantile(values, 0.5), quantile(values, 0.95));
+}
+
 namespace {
 
 /// With as many decimal places, at least one, as keep some from looking like none, and most from looking like all.

@@ -75,6 +75,8 @@ struct Tally {
 
 /// The quantile by nearest rank: a `share` of all values is not above it. 0 if there are no values. O(n log n).
 [[nodiscard]] double quantile(std::vector<double> values, double share);
+/// Those of 5, 50 and 95 %, as the tables have them: `1.20 / 2.50 / 3.10`; `-` if there are no values.
+[[nodiscard]] std::string quantiles(const std::vector<double>& values, int digits);
 /// `12.5 %`; `-` if `all` is 0. One decimal place, and more only where it would print some as 0.0 or less than all as 100.0: `99.96 %`.
 [[nodiscard]] std::string percent(std::size_t part, std::size_t all);
 /// `98.8 % (96.4 to 99.6)`: the share, and the range of shares that so many runs cannot distinguish from it: the 95 % score

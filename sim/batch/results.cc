@@ -5,26 +5,17 @@
 #include <algorithm>
 #include <optional>
 
+#include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
 #include "sim/batch/fields.h"
 
 namespace kb::sim::batch {
 namespace {
 
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (std::size_t comma = 0; comma != std::string_view::npos;) {
-    comma = line.find(',');
-    fields.push_back(line.substr(0, comma));
-    line.remove_prefix(comma == std::string_view::npos ? 0 : comma + 1);
-  }
-  return fields;
-}
-
 /// `# kbc fleet, batch 17, 2 runs, kbc 4, seeds 1-2`: each item is a name and, behind its last blank, a value; a number of runs says nothing.
 std::vector<std::pair<std::string, std::string>> items_of(std::string_view comment) {
   std::vector<std::pair<std::string, std::string>> items;
-  for (std::string_view item : fields_of(comment)) {
+  for (std::string_view item : source::split(comment, ',')) {
     while (item.starts_with(' ') || item.starts_with('#')) item.remove_prefix(1);
     const std::size_t blank = std::min(item.rfind(' '), item.size());
     if (item.empty() || item == "kbc fleet" || item.ends_with(" runs") || item.starts_with("batch ")) continue;
@@ -80,7 +71,7 @@ class Reader {
   }
 
   void take_header() {
-    const std::vector<std::string_view> names = fields_of(line_), measures = fields_of(kMeasures);
+    const std::vector<std::string_view> names = source::split(line_, ','), measures = source::split(kMeasures, ',');
     const auto outcome = column(names, "outcome"), reports = column(names, "reports"), time = column(names, "time_s"), length = column(names, "length_m");
     if (!outcome || !reports || !time || !length) return;   // the first that is missing was told
     const auto found = std::search(names.begin(), names.end(), measures.begin(), measures.end());
@@ -95,7 +86,7 @@ class Reader {
   }
 
   void take_row() {
-    const std::vector<std::string_view> fields = fields_of(line_);
+    const std::vector<std::string_view> fields = source::split(line_, ',');
     if (fields.size() != columns_) return refuse(fmt::format("{} fields stand here, and {} columns have a name", fields.size(), columns_));
     ResultRow row;
     std::size_t outcome = 0;

@@ -9,11 +9,6 @@
 namespace kb::sim::batch {
 namespace {
 
-std::string quantiles(const std::vector<double>& values, int digits) {
-  if (values.empty()) return "-";
-  return fmt::format("{1:.{0}f} / {2:.{0}f} / {3:.{0}f}", digits, quantile(values, 0.05), quantile(values, 0.5), quantile(values, 0.95));
-}
-
 /// The first cells of a row, which say the runs of which scenario it counts.
 std::string cells(std::string_view name, const std::vector<std::string>& values) {
   std::string out(name);

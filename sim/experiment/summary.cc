@@ -28,7 +28,7 @@ std::string kinds_of(const std::vector<Row>& rows, const Row& way) {
     if (row.method != way.method || row.set != way.set || row.kinds.empty() || row.kinds.find('+') != std::string::npos) continue;
     Count& count = kinds[row.kinds];
     ++count.runs;
-    if (row.outcome == "arrived") ++count.arrived;
+    if (batch::arrives(row)) ++count.arrived;
     else ++count.else_[batch::says_why(row) ? row.reports : row.outcome];
   }
   std::string out = "| alone | runs | arrives (95 % interval) | else |\n|---|---:|---:|---|\n";

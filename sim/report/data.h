@@ -7,7 +7,6 @@
 //   a sparse    [frames, values]: ascending frames of the drive as differences, the first as it is; the value from each on
 #pragma once
 
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 

@@ -1,7 +1,6 @@
 // The robot's body among walls and obstacles, by Box2D: where it stands, what it hits, what its rays meet.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>

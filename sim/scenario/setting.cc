@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "compiler/source/encoding.h"
 #include "sim/scenario/toml_keys.h"
 
 namespace kb::sim {
@@ -29,7 +30,7 @@ std::string plain_value(const std::string& text) {
   return number != nullptr ? fmt::format("{}", number->get() + 0.0) : text;   // so that -0.0 is 0
 }
 
-bool is_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; }
+bool is_word(char c) { return source::is_letter_or_digit(c) || c == '_' || c == '-'; }
 
 /// Whether a text is a key: words with points between them.
 bool is_key(std::string_view text) {
@@ -54,18 +55,16 @@ std::optional<Sweep> read_sweep(std::string_view text, std::string& why) {
   if (equals == std::string_view::npos || !is_key(text.substr(0, equals))) return wrong("write KEY=VALUE, such as sensors.range.noise=0.1");
   Sweep sweep{std::string(text.substr(0, equals)), {}};
   std::set<std::string> seen;
-  for (std::string_view rest = text.substr(equals + 1);;) {
-    const std::size_t comma = rest.find(',');
-    const std::string value(rest.substr(0, comma));
+  for (const std::string_view part : source::split(text.substr(equals + 1), ',')) {
+    const std::string value(part);
     if (value.empty()) return wrong("a value is missing");
     if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || std::string_view("\"'\\|#<&").find(c) != std::string_view::npos; })) {
       return wrong("a text is written bare, and without \\ | # < &");   // those would break the pictures and tables of results
     }
     if (!seen.insert(plain_value(value)).second) return wrong("a value is there twice");
     sweep.values.push_back(value);
-    if (comma == std::string_view::npos) return sweep;
-    rest.remove_prefix(comma + 1);
   }
+  return sweep;
 }
 
 Combinations rows_of(const std::vector<Sweep>& sweeps) {

@@ -9,7 +9,7 @@
 namespace kb::sim {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+using source::is_digit;
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80; }
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 

@@ -8,20 +8,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "compiler/source/encoding.h"
+
 namespace kb::table1 {
 namespace {
 
 using Facts = std::vector<std::pair<std::string, double>>;
-
-std::vector<std::string_view> split(std::string_view text, char at) {
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = 0;;) {
-    const std::size_t end = text.find(at, begin);
-    parts.push_back(text.substr(begin, end - begin));
-    if (end == std::string_view::npos) return parts;
-    begin = end + 1;
-  }
-}
 
 double number(std::string_view text) {
   double value = 0.0;
@@ -102,10 +94,10 @@ bool agree(const Cell& cell) { return std::abs(cell.paper - cell.ours) <= 1e-6; 
 
 Table read_table(std::string_view csv) {
   Table table;
-  for (std::string_view line : split(csv, '\n')) {
+  for (std::string_view line : source::split(csv, '\n')) {
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.empty()) continue;
-    const auto fields = split(line, ',');
+    const auto fields = source::split(line, ',');
     if (table.columns.empty()) {
       table.columns.assign(fields.begin() + 1, fields.end());
       continue;
@@ -136,7 +128,7 @@ Meaning meaning_of(std::string_view row) {
     if (name == row) return meaning;
   }
   const auto crossing = [](std::string_view turn_and_method) {
-    const auto parts = split(turn_and_method, '_');
+    const auto parts = source::split(turn_and_method, '_');
     return fmt::format("Cross[{},{}]", parts.at(0), parts.at(1));
   };
   // The longest prefix that fits counts, so they stand in this order.

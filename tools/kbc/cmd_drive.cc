@@ -1,5 +1,4 @@
 // kbc drive: a knowledge base drives a user's robot, over standard input and output.
-#include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 

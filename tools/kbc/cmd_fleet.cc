@@ -120,11 +120,7 @@ bool read_scenarios(const std::vector<NamedFile>& files, const sim::Combinations
 }
 
 void mix(source::Fingerprint& print, const source::Sources& sources, std::size_t first, std::size_t last) {
-  for (std::size_t i = first; i < last; ++i) {
-    const std::string_view bytes = sources.bytes(source::FileId{static_cast<std::uint32_t>(i)});
-    print.mix(fmt::format("{}\n", bytes.size()));
-    print.mix(bytes);
-  }
+  for (std::size_t i = first; i < last; ++i) print.mix_file(sources.bytes(source::FileId{static_cast<std::uint32_t>(i)}));
 }
 
 // Everything that a row depends on, including the names of scenarios, but no paths: in another folder the batch is the same. The first `rules`

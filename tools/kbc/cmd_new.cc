@@ -2,14 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <boost/algorithm/string/replace.hpp>
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "compiler/source/encoding.h"
@@ -38,7 +36,7 @@ bool is_target_of_cmake(std::string_view lower) {
 
 // Why a project cannot have this name, in which `_` stands for `-`; empty if it can. Some systems do not distinguish MAP.kb from map.kb.
 std::string_view fault_of(const std::string& name) {
-  const auto plain = [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; };
+  const auto plain = [](char c) { return source::is_letter_or_digit(c) || c == '_'; };
   if (name.empty() || !is_letter(name[0])) return "it does not begin with a letter from `a` to `z`";
   if (!std::all_of(name.begin(), name.end(), plain)) return "it has other characters than letters from `a` to `z`, digits, `_` and `-`";
   if (name.back() == '_' || name.find("__") != std::string::npos) return "it ends in `_` or `-`, or has two of them side by side";
@@ -65,7 +63,7 @@ bool is_free(const std::string& folder) {
 
 // `path` as a word of a shell command.
 std::string shell_word(const std::string& path) {
-  const bool plain = std::all_of(path.begin(), path.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/._-+").find(c) != std::string_view::npos; });
+  const bool plain = std::all_of(path.begin(), path.end(), [](char c) { return source::is_letter_or_digit(c) || std::string_view("/._-+").find(c) != std::string_view::npos; });
   if (plain) return path;
   std::string out = "'";
   for (const char c : path) out += c == '\'' ? std::string("'\\''") : std::string(1, c);

@@ -183,7 +183,7 @@ int answer_one(Work& work) {
 // Answers all rows of a scenario file.
 int answer_many(Work& work) {
   auto messages = work.session.diagnostics(work.sources);
-  const auto file = plans::open_file(work.options.scen, work.session.files(), work.sources, messages);
+  const auto file = diagnostics::open_file(work.options.scen, work.session.files(), work.sources, messages);
   const auto rows = file ? plans::read_scenarios(*file, work.map.grid, messages, work.options.map) : std::nullopt;
   if (!rows) return kErrors;
   std::vector<plans::Summary> summaries;

@@ -99,7 +99,7 @@ std::unique_ptr<sim::Labyrinth> DriveGround::floor(const std::string& path, Scri
   sim::LayoutOptions layout{scale, background ? &background->grid : nullptr, {}};
   if (path.empty() && !script.settings.empty()) script.file = compiled->sources.add("no scenario", "");
   if (!path.empty()) {
-    script.file = planners::open_file(path, session.files(), compiled->sources, messages);
+    script.file = diagnostics::open_file(path, session.files(), compiled->sources, messages);
     if (!script.file) return nullptr;
   }
   if (script.file) {

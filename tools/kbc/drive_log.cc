@@ -48,8 +48,8 @@ bool DriveLog::open(const std::string& knowledge) {
 
 void DriveLog::ticked(const program::Tick& tick, std::string_view json, std::span<const float> facts) {
   if (facts_.file != nullptr) {
-    std::string bytes, seconds;
-    program::append_seconds(seconds, tick.time_us);   // the mind's time, which stands still while the robot waits: with it, `kbc run` ticks in the same way
+    std::string bytes;
+    const std::string seconds = program::seconds_text(tick.time_us);   // the mind's time, which stands still while the robot waits: with it, `kbc run` ticks in the same way
     {
       sim::report::Row row(bytes);
       row.text(seconds);

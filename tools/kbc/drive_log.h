@@ -1,7 +1,6 @@
 // The files that `kbc drive` writes.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>

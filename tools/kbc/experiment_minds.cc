@@ -23,9 +23,7 @@ std::string fingerprint_of(const source::Sources& sources) {
   source::Fingerprint print;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const source::FileId file{static_cast<std::uint32_t>(i)};
-    if (sources.path(file) == kMission) continue;
-    print.mix(fmt::format("{}\n", sources.bytes(file).size()));
-    print.mix(sources.bytes(file));
+    if (sources.path(file) != kMission) print.mix_file(sources.bytes(file));
   }
   return fmt::format("{:016x}", print.value());
 }

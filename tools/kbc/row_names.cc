@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <system_error>
 
+#include "compiler/source/encoding.h"
+
 namespace kb::cli {
 namespace {
 
-bool is_plain(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; }
+bool is_plain(char c) { return source::is_letter_or_digit(c) || c == '_' || c == '-' || c == '.'; }
 
 /// What `pandas.read_csv` and R's `read.csv` take for a missing value, of the texts that could be names.
 constexpr std::array<std::string_view, 8> kMissing{"NA", "NULL", "NaN", "None", "nan", "null", "-NaN", "-nan"};

@@ -2,24 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string_view>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/diagnostics/display.h"
+#include "compiler/source/encoding.h"
 
 namespace kb::cli {
 namespace {
 
 /// "--color: allways not in {auto,always,never}"
 std::string none_of(std::string_view name, std::string_view word, std::string_view choices) {
-  std::vector<std::string_view> known;
-  while (!choices.empty()) {
-    const std::size_t end = std::min(choices.find(','), choices.size());
-    known.push_back(choices.substr(0, end));
-    choices.remove_prefix(std::min(end + 1, choices.size()));
-  }
+  const std::vector<std::string_view> known = source::split(choices, ',');
   std::string text = fmt::format("{}: {} is none of {}", name, diagnostics::quoted_code(word), diagnostics::listed(known, known.size()));
   if (const auto better = diagnostics::closest(word, known)) text += "; did you mean `" + *better + "`?";
   return text;

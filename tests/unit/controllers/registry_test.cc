@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 
 #include <waymark/controllers/any_controller.h>
+#include "tests/unit/controllers/drives.h"
+#include "tests/unit/whole_file.h"
 
 namespace mts {
 namespace {
@@ -54,8 +54,7 @@ std::string row_of(const Parameter& p) {
 }
 
 TEST(Registry, TheChapterOnControllersHasARowForEachParameter) {
-  std::ifstream file(KB_PROJECT_ROOT "/docs/controllers.md");
-  const std::string chapter{std::istreambuf_iterator<char>(file), {}};
+  const std::string chapter = kb::whole_file(KB_PROJECT_ROOT "/docs/controllers.md");
   for (const ControllerEntry& entry : kControllers) {
     EXPECT_NE(chapter.find("`" + std::string(entry.name) + "`"), std::string::npos) << entry.name;
     for_each_parameter(entry.id, [&](const Parameter& parameter) {
@@ -65,8 +64,7 @@ TEST(Registry, TheChapterOnControllersHasARowForEachParameter) {
 }
 
 TEST(Body, TheChapterOnControllersSaysItsDefaults) {
-  std::ifstream file(KB_PROJECT_ROOT "/docs/controllers.md");
-  const std::string chapter{std::istreambuf_iterator<char>(file), {}};
+  const std::string chapter = kb::whole_file(KB_PROJECT_ROOT "/docs/controllers.md");
   const Body body;
   const struct { const char* name; float value; } rows[] = {
       {"radius_m", body.radius_m}, {"wheel_base_m", body.wheel_base_m}, {"top_speed_m_s", body.top_speed_m_s},

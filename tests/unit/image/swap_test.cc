@@ -68,6 +68,20 @@ TEST(Swap, ToTheSameImageAtAnyOneTickChangesNothing) {
   }
 }
 
+/// Calls `then` with an engine on the image of one knowledge base, begun afresh, and with the image of another.
+template <class Then>
+void with_swap(const program::Program& old, const program::Program& now, Then then) {
+  const LoadedImage from(write_image(build(old), old)), to(write_image(build(now), now));
+  ASSERT_EQ(to.status(), mts::ImageStatus::kOk) << mts::text(to.status());
+  from.visit([&]<class I>(const mts::Image<I>& from_view) {
+    to.visit([&]<class J>(const mts::Image<J>& to_view) {
+      Running<I> before(from_view);
+      before.engine().reset();
+      then(before, to_view);
+    });
+  });
+}
+
 /// The same knowledge base without its `nth` rule (not one of those that run strategies).
 program::Program without_rule(program::Program program, std::size_t nth) {
   program.rules.erase(program.rules.begin() + static_cast<std::ptrdiff_t>(nth % program.rules.size()));
@@ -78,31 +92,26 @@ TEST(Swap, ToAKnowledgeBaseWithoutARuleCarriesAllElse) {
   for (std::uint64_t seed = 1; seed <= kPrograms; seed += kStep) {
     const program::Program program = program::testing::random_program(seed);
     const program::Program changed = without_rule(program, seed);
-    const LoadedImage image(write_image(build(program), program)), other(write_image(build(changed), changed));
-    ASSERT_EQ(other.status(), mts::ImageStatus::kOk) << mts::text(other.status()) << ", seed " << seed;
-    image.visit([&]<class I>(const mts::Image<I>& from) {
-      other.visit([&]<class J>(const mts::Image<J>& to) {
-        Running<I> before(from);
-        before.engine().reset();
-        const auto day = program::testing::random_trace(program, seed, kTicks);
-        for (std::size_t i = 0; i < kTicks / 2; ++i) before.tick(day[i].facts, day[i].dt_us);
-        mts::SwapReport report;
-        const auto after = swapped(before, to, report);
-        for (std::uint32_t c = 0; c < from.tables.shape.cells(); ++c) ASSERT_EQ(after->state.cf[c], before.state.cf[c]) << "seed " << seed;
-        EXPECT_EQ(report.rules.lost, 1u);
-        EXPECT_EQ(report.rules.carried, program.rules.size() - 1);
-        EXPECT_EQ(after->state.ticks, before.state.ticks);
-        EXPECT_EQ(after->state.now_us, before.state.now_us);
-        // What was carried is consistent: carried on once more, it goes the same way.
-        mts::SwapReport again;
-        const auto twice = swapped(*after, to, again);
-        EXPECT_EQ(again.told, 0u);
-        for (std::size_t i = kTicks / 2; i < kTicks; ++i) {
-          after->tick(day[i].facts, day[i].dt_us);
-          twice->tick(day[i].facts, day[i].dt_us);
-          ASSERT_EQ(twice->trace(), after->trace()) << "seed " << seed << ", tick " << i;
-        }
-      });
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    with_swap(program, changed, [&](auto& before, const auto& to) {
+      const auto day = program::testing::random_trace(program, seed, kTicks);
+      for (std::size_t i = 0; i < kTicks / 2; ++i) before.tick(day[i].facts, day[i].dt_us);
+      mts::SwapReport report;
+      const auto after = swapped(before, to, report);
+      for (std::uint32_t c = 0; c < before.image.tables.shape.cells(); ++c) ASSERT_EQ(after->state.cf[c], before.state.cf[c]) << "seed " << seed;
+      EXPECT_EQ(report.rules.lost, 1u);
+      EXPECT_EQ(report.rules.carried, program.rules.size() - 1);
+      EXPECT_EQ(after->state.ticks, before.state.ticks);
+      EXPECT_EQ(after->state.now_us, before.state.now_us);
+      // What was carried is consistent: carried on once more, it goes the same way.
+      mts::SwapReport again;
+      const auto twice = swapped(*after, to, again);
+      EXPECT_EQ(again.told, 0u);
+      for (std::size_t i = kTicks / 2; i < kTicks; ++i) {
+        after->tick(day[i].facts, day[i].dt_us);
+        twice->tick(day[i].facts, day[i].dt_us);
+        ASSERT_EQ(twice->trace(), after->trace()) << "seed " << seed << ", tick " << i;
+      }
     });
     if (HasFatalFailure()) return;
   }
@@ -121,21 +130,16 @@ program::Program goes(const std::string& idle, std::uint32_t hold_limit_us) {
 
 /// What a mind does that takes another image half a second after its strategy has ended, a tick later.
 mts::Status status_after(const program::Program& old, const program::Program& now) {
-  const LoadedImage from(write_image(build(old), old)), to(write_image(build(now), now));
   mts::Status status = mts::Status::kOk;
-  from.visit([&]<class I>(const mts::Image<I>& from_view) {
-    to.visit([&]<class J>(const mts::Image<J>& to_view) {
-      Running<I> before(from_view);
-      before.engine().reset();
-      for (const float on : {0.0f, 1.0f, 0.0f, 0.0f}) before.tick({on}, 500'000);
-      mts::SwapReport report;
-      std::vector<std::string> losses;
-      const auto after = swapped(before, to_view, report, &losses);
-      for (const std::string& loss : losses) EXPECT_FALSE(loss.starts_with("strategy")) << "it was neither active nor held: " << loss;
-      after->tick({0.0f}, 100'000);
-      EXPECT_EQ(after->state.strategy != 0, after->state.status == mts::Status::kHolding);
-      status = after->state.status;
-    });
+  with_swap(old, now, [&](auto& before, const auto& to_view) {
+    for (const float on : {0.0f, 1.0f, 0.0f, 0.0f}) before.tick({on}, 500'000);
+    mts::SwapReport report;
+    std::vector<std::string> losses;
+    const auto after = swapped(before, to_view, report, &losses);
+    for (const std::string& loss : losses) EXPECT_FALSE(loss.starts_with("strategy")) << "it was neither active nor held: " << loss;
+    after->tick({0.0f}, 100'000);
+    EXPECT_EQ(after->state.strategy != 0, after->state.status == mts::Status::kHolding);
+    status = after->state.status;
   });
   return status;
 }
@@ -155,20 +159,15 @@ TEST(Swap, TellsOfAnIdleStrategyThatDroveAndIsGone) {
     return ProgramBuilder({"goal", "control"}).fact("On").strategy("Go").strategy(where).idle(where).when("go", "goal", seen("On"), {raise("sat Go")}).build();
   };
   const program::Program old = parks("Park"), now = parks("Stand");
-  const LoadedImage from(write_image(build(old), old)), to(write_image(build(now), now));
-  from.visit([&]<class I>(const mts::Image<I>& from_view) {
-    to.visit([&]<class J>(const mts::Image<J>& to_view) {
-      Running<I> before(from_view);
-      before.engine().reset();
-      mts::SwapReport report;
-      std::vector<std::string> losses;
-      static_cast<void>(swapped(before, to_view, report, &losses));
-      EXPECT_EQ(losses, std::vector<std::string>()) << "it has not driven yet";
-      before.tick({0.0f}, 100'000);
-      static_cast<void>(swapped(before, to_view, report, &losses));
-      ASSERT_EQ(losses.size(), 1u);
-      EXPECT_TRUE(losses.front().starts_with("strategy Park")) << losses.front();
-    });
+  with_swap(old, now, [&](auto& before, const auto& to_view) {
+    mts::SwapReport report;
+    std::vector<std::string> losses;
+    static_cast<void>(swapped(before, to_view, report, &losses));
+    EXPECT_EQ(losses, std::vector<std::string>()) << "it has not driven yet";
+    before.tick({0.0f}, 100'000);
+    static_cast<void>(swapped(before, to_view, report, &losses));
+    ASSERT_EQ(losses.size(), 1u);
+    EXPECT_TRUE(losses.front().starts_with("strategy Park")) << losses.front();
   });
 }
 
@@ -182,38 +181,28 @@ TEST(Swap, TellsOfATimerThatIsGoneByItsLevel) {
     return b.build();
   };
   const program::Program old = waits(100'000, 900'000), now = waits(200'000, 800'000);
-  const LoadedImage from(write_image(build(old), old)), to(write_image(build(now), now));
-  from.visit([&]<class I>(const mts::Image<I>& from_view) {
-    to.visit([&]<class J>(const mts::Image<J>& to_view) {
-      Running<I> before(from_view);
-      before.engine().reset();
-      for (int tick = 0; tick < 4; ++tick) before.tick({1.0f}, 100'000);
-      mts::SwapReport report;
-      std::vector<std::string> losses;
-      static_cast<void>(swapped(before, to_view, report, &losses));
-      std::sort(losses.begin(), losses.end());
-      EXPECT_EQ(losses, (std::vector<std::string>{"timer goal 1", "timer map 0"})) << "one is over, one runs";
-    });
+  with_swap(old, now, [&](auto& before, const auto& to_view) {
+    for (int tick = 0; tick < 4; ++tick) before.tick({1.0f}, 100'000);
+    mts::SwapReport report;
+    std::vector<std::string> losses;
+    static_cast<void>(swapped(before, to_view, report, &losses));
+    std::sort(losses.begin(), losses.end());
+    EXPECT_EQ(losses, (std::vector<std::string>{"timer goal 1", "timer map 0"})) << "one is over, one runs";
   });
 }
 
 TEST(Swap, LeavesARobotStandingWhoseStrategyIsGone) {
   const program::Program old = goes("hold", 5'000'000), now = program::testing::ProgramBuilder({"goal", "control"}).fact("On").build();
-  const LoadedImage from(write_image(build(old), old)), to(write_image(build(now), now));
-  from.visit([&]<class I>(const mts::Image<I>& from_view) {
-    to.visit([&]<class J>(const mts::Image<J>& to_view) {
-      Running<I> before(from_view);
-      before.engine().reset();
-      for (const float on : {0.0f, 1.0f, 0.0f}) {
-        before.tick({on}, 500'000);
-        mts::SwapReport report;
-        const auto after = swapped(before, to_view, report);
-        EXPECT_EQ(after->state.strategy, 0u);
-        EXPECT_EQ(after->state.status, mts::Status::kNoStrategy);
-        EXPECT_EQ(after->state.driving, mts::Status::kNoStrategy) << "between the swap and the next tick";
-      }
-      EXPECT_EQ(before.state.driving, mts::Status::kHolding);
-    });
+  with_swap(old, now, [&](auto& before, const auto& to_view) {
+    for (const float on : {0.0f, 1.0f, 0.0f}) {
+      before.tick({on}, 500'000);
+      mts::SwapReport report;
+      const auto after = swapped(before, to_view, report);
+      EXPECT_EQ(after->state.strategy, 0u);
+      EXPECT_EQ(after->state.status, mts::Status::kNoStrategy);
+      EXPECT_EQ(after->state.driving, mts::Status::kNoStrategy) << "between the swap and the next tick";
+    }
+    EXPECT_EQ(before.state.driving, mts::Status::kHolding);
   });
 }
 

@@ -4,24 +4,17 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+
+#include "tests/unit/whole_file.h"
 
 namespace kb::model::testing {
 namespace {
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 const std::vector<std::pair<std::string, std::string>>& library() {
   static const auto files = [] {
     std::vector<std::pair<std::string, std::string>> read;
     for (const auto& entry : std::filesystem::directory_iterator(KB_PROJECT_ROOT "/stdlib_rules/std")) {
-      read.emplace_back("library/std/" + entry.path().filename().string(), read_file(entry.path()));
+      read.emplace_back("library/std/" + entry.path().filename().string(), whole_file(entry.path()));
     }
     return read;
   }();
@@ -36,7 +29,7 @@ auto find(const Items& items, Name name) -> decltype(&items.front()) {
 
 }  // namespace
 
-std::string labyrinth() { return read_file(KB_PROJECT_ROOT "/examples/01_route1/labyrinth.kb"); }
+std::string labyrinth() { return whole_file(KB_PROJECT_ROOT "/examples/01_route1/labyrinth.kb"); }
 
 void Listener::consume(const diagnostics::Diagnostic& diagnostic) {
   kinds_.push_back(diagnostic.kind);

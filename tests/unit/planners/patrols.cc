@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "planners/dice.h"
 #include "planners/shortest.h"
 
 namespace kb::planners::testing {
-namespace {
 
 Cell free_cell(const Grid& grid, Dice& dice) {
   for (;;) {
@@ -16,8 +14,6 @@ Cell free_cell(const Grid& grid, Dice& dice) {
     if (grid.free(cell)) return cell;
   }
 }
-
-}  // namespace
 
 Movers make_patrols(const Grid& grid, int count, std::uint32_t period, Cell spared, std::uint64_t seed) {
   Dice dice(seed, 77);

@@ -61,7 +61,7 @@ Benchmark load_benchmark(const std::string& map, const std::vector<std::string>&
   if (!read) throw std::runtime_error("cannot read " + map);
   Benchmark benchmark{map.substr(0, map.find('.')), std::move(read->grid), {}};
   for (const std::string& name : scenarios) {
-    const auto file = open_file(folder + name, files, sources, messages);
+    const auto file = diagnostics::open_file(folder + name, files, sources, messages);
     auto rows = file ? read_scenarios(*file, benchmark.grid, messages) : std::nullopt;
     if (!rows) throw std::runtime_error("cannot read " + name);
     benchmark.scenarios.insert(benchmark.scenarios.end(), rows->begin(), rows->end());

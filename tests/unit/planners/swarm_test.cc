@@ -10,6 +10,7 @@
 
 #include "planners/dice.h"
 #include "tests/unit/planners/meetings.h"
+#include "tests/unit/planners/patrols.h"
 #include "tests/unit/planners/planning.h"
 
 namespace kb::planners {
@@ -17,20 +18,13 @@ namespace {
 
 std::vector<Swarm::Robot> random_robots(const Grid& grid, std::size_t count, std::uint64_t seed) {
   Dice dice(seed);
-  const auto draw = [&] {
-    for (;;) {
-      const Cell cell{static_cast<std::int32_t>(dice.below(static_cast<std::size_t>(grid.width()))),
-                      static_cast<std::int32_t>(dice.below(static_cast<std::size_t>(grid.height())))};
-      if (grid.free(cell)) return cell;
-    }
-  };
   std::vector<bool> used(grid.size(), false);
   std::vector<Swarm::Robot> robots;
   while (robots.size() < count) {
-    const Cell at = draw();
+    const Cell at = testing::free_cell(grid, dice);
     if (used[grid.index(at)]) continue;
     used[grid.index(at)] = true;
-    robots.push_back({at, draw()});
+    robots.push_back({at, testing::free_cell(grid, dice)});
   }
   return robots;
 }

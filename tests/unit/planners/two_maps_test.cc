@@ -1,5 +1,3 @@
-#include "planners/two_maps.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +30,7 @@ TEST(TwoMaps, tells_all_that_was_driven) {
     EXPECT_EQ(result.path.front(), problem.start);
     double longest = 0.0;
     for (std::size_t k = 1; k < result.path.size(); ++k) longest = std::max(longest, distance(result.path[k - 1], result.path[k]));
-    EXPECT_LE(longest, 0.1 + 1e-9) << "row " << i;   // TwoMapsParameters::step_cells
+    EXPECT_LE(longest, 0.1 + 1e-9) << "row " << i;   // a step of the method
     EXPECT_DOUBLE_EQ(result.length_m, length(result.path));
   }
   EXPECT_GT(many, 5u);

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <initializer_list>
 #include <limits>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "sim/experiment/results.h"
+#include "tests/unit/whole_file.h"
 
 namespace kb::sim::experiment {
 namespace {
@@ -110,9 +110,7 @@ TEST(ResultsTest, a_torn_line_is_cut_off_and_another_experiment_is_left_alone) {
     row.scenario = row.labyrinth = 1;
     ASSERT_TRUE(results.add(row));
   }
-  std::ostringstream bytes;
-  bytes << std::ifstream(path).rdbuf();
-  EXPECT_EQ(bytes.str(), "# kbc 0, seed 1\n" + row_header({{}}) + "\n" + "0,mts,0" + rest + "1,mts,1" + rest);
+  EXPECT_EQ(whole_file(path), "# kbc 0, seed 1\n" + row_header({{}}) + "\n" + "0,mts,0" + rest + "1,mts,1" + rest);
   Results other;
   EXPECT_EQ(other.open(path, "# kbc 0, seed 2", two), Results::Opened::kOther);
   EXPECT_EQ(other.error(), "seed 1 instead of 2");
@@ -124,9 +122,7 @@ TEST(ResultsTest, somebody_elses_file_is_left_alone_however_short_and_a_torn_beg
   for (const auto& [bytes, opened] : {std::pair("hello", Results::Opened::kNotOurs), std::pair("# kbc fleet, batch 1, 2 runs\n", Results::Opened::kNotOurs), std::pair("# a\nscen", Results::Opened::kOpen), std::pair("", Results::Opened::kOpen)}) {
     std::ofstream(path, std::ios::trunc) << bytes;
     EXPECT_EQ(Results().open(path, "# a", experiment::Setup{}), opened) << bytes;
-    std::ostringstream after;
-    after << std::ifstream(path).rdbuf();
-    EXPECT_EQ(after.str(), opened == Results::Opened::kNotOurs ? bytes : "# a\n" + row_header({{}}) + "\n");
+    EXPECT_EQ(whole_file(path), opened == Results::Opened::kNotOurs ? bytes : "# a\n" + row_header({{}}) + "\n");
   }
   std::filesystem::remove(path);
 }

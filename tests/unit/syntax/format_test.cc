@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "tests/unit/syntax/reading.h"
+#include "tests/unit/whole_file.h"
 
 namespace kb::syntax::testing {
 namespace {
@@ -24,8 +23,7 @@ std::vector<std::filesystem::path> all_knowledge_bases() {
 TEST(Format, of_every_file_of_the_project_is_idempotent_and_keeps_the_tree) {
   ASSERT_FALSE(all_knowledge_bases().empty());
   for (const auto& path : all_knowledge_bases()) {
-    std::ifstream in(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string text = whole_file(path);
     const std::string once = formatted(text);
     EXPECT_EQ(formatted(once), once) << path;
     EXPECT_EQ(read(once).tree, read(text).tree) << path;

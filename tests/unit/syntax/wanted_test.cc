@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "compiler/syntax/syntax.h"
+#include "tests/unit/whole_file.h"
 
 namespace kb::syntax {
 namespace {
@@ -81,9 +80,8 @@ TEST(Wanted, AMapGoesOnBehindALineThatCannotBeRead) {
 TEST(Wanted, AtTheWordsOfTheStandardLibraryTheyAreOffered) {
   std::size_t asked = 0;
   for (const auto& entry : std::filesystem::directory_iterator(KB_PROJECT_ROOT "/stdlib_rules/std")) {
-    std::ifstream in(entry.path());
     source::Sources sources;
-    const source::FileId file = sources.add("std.kb", std::string(std::istreambuf_iterator<char>(in), {}));
+    const source::FileId file = sources.add("std.kb", whole_file(entry.path()));
     const std::vector<Lexeme> all = lexemes(sources, file);
     for (std::size_t i = 0; i < all.size(); i += 3) {   // each place costs as much as to read the file
       if (all[i].what != Lexeme::Class::kWord) continue;

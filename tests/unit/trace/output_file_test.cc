@@ -8,9 +8,9 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "tests/unit/scratch_folder.h"
+#include "tests/unit/whole_file.h"
 
 namespace kb::trace {
 namespace {
@@ -23,11 +23,6 @@ class OutputFileTest : public ::testing::Test {
   std::string make(const std::string& name, std::string_view bytes) const {
     std::ofstream(path(name), std::ios::binary) << bytes;
     return path(name);
-  }
-  static std::string read(const std::string& path) {
-    std::stringstream out;
-    out << std::ifstream(path, std::ios::binary).rdbuf();
-    return out.str();
   }
   std::size_t files() const {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
@@ -47,7 +42,7 @@ TEST_F(OutputFileTest, appears_when_it_is_committed_and_not_before) {
   ASSERT_TRUE(staged(file, path("a.h"), "new"));
   EXPECT_FALSE(fs::exists(path("a.h")));
   ASSERT_TRUE(file.commit());
-  EXPECT_EQ(read(path("a.h")), "new");
+  EXPECT_EQ(whole_file(path("a.h")), "new");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -60,11 +55,11 @@ TEST_F(OutputFileTest, of_several_all_are_moved_or_none) {
     if (refused) fs::remove(path("a.cc")), fs::create_directory(path("a.cc"));
     EXPECT_EQ(OutputFile::commit_all(outputs), refused ? std::optional<std::size_t>(3) : std::nullopt);
     EXPECT_EQ(outputs[3].error(), refused ? "is a directory" : "");
-    EXPECT_EQ(read(path("a.h")), refused ? "old" : "new");
+    EXPECT_EQ(whole_file(path("a.h")), refused ? "old" : "new");
     EXPECT_EQ(fs::exists(path("new.h")), !refused);
     if (refused) fs::remove(path("a.cc")), make("a.cc", "old");
   }
-  EXPECT_EQ(read(path("a.cc")), "new");
+  EXPECT_EQ(whole_file(path("a.cc")), "new");
   EXPECT_EQ(files(), 3u) << "another name of an old file was left";
 }
 
@@ -84,7 +79,7 @@ TEST_F(OutputFileTest, grows_on_under_its_name_wherever_it_was_moved) {
     EXPECT_FALSE(file.reopen(refused)) << "nobody has moved it away";
     file.write("c");
     ASSERT_TRUE(file.commit());
-    EXPECT_EQ(read(path("log.1")) + ", " + read(path("log")), "a, bc");
+    EXPECT_EQ(whole_file(path("log.1")) + ", " + whole_file(path("log")), "a, bc");
   }
   EXPECT_EQ(files(), 2u);
 }
@@ -113,7 +108,7 @@ TEST_F(OutputFileTest, goes_on_growing_where_it_was_if_its_name_cannot_be_opened
   EXPECT_TRUE(file.reopen(refused));
   file.write("e");
   ASSERT_TRUE(file.commit());
-  EXPECT_EQ(read(path("log.1")) + ", " + read(path("log")), "abcd, e");
+  EXPECT_EQ(whole_file(path("log.1")) + ", " + whole_file(path("log")), "abcd, e");
   EXPECT_EQ(fs::status(path("log")).permissions(), fs::status(path("log.1")).permissions());
 }
 
@@ -123,7 +118,7 @@ TEST_F(OutputFileTest, that_is_given_up_leaves_no_trace) {
     OutputFile file;
     ASSERT_TRUE(staged(file, path("a.h"), "new"));
   }
-  EXPECT_EQ(read(path("a.h")), "old");
+  EXPECT_EQ(whole_file(path("a.h")), "old");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -143,7 +138,7 @@ TEST_F(OutputFileTest, that_does_not_fit_leaves_the_old_one_untouched) {
   }
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(read(path("a.cc")), "old");
+  EXPECT_EQ(whole_file(path("a.cc")), "old");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -166,7 +161,7 @@ TEST_F(OutputFileTest, behind_a_link_is_replaced_and_the_link_stays) {
   OutputFile file;
   ASSERT_TRUE(staged(file, path("link.h"), "new") && file.commit());
   EXPECT_TRUE(fs::is_symlink(path("link.h")));
-  EXPECT_EQ(read(path("real.h")), "new");
+  EXPECT_EQ(whole_file(path("real.h")), "new");
 }
 
 TEST_F(OutputFileTest, says_why_it_cannot_be_written) {

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "tests/unit/trace/sample.h"
+#include "tests/unit/whole_file.h"
 
 namespace kb::trace {
 namespace {
@@ -29,10 +29,7 @@ class Cases : public ::testing::Test {
     fs::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  [[nodiscard]] std::string read(const std::string& name) const {
-    std::ifstream in(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  [[nodiscard]] std::string read(const std::string& name) const { return whole_file(folder_ / name); }
   [[nodiscard]] std::vector<TestCase> find() { return find_cases({folder_.string()}, {}, diagnostics_); }
   // Names and programs of the cases, relative to the folder.
   [[nodiscard]] Lines found() {

@@ -5,12 +5,11 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "compiler/diagnostics/consumers.h"
+#include "tests/unit/whole_file.h"
 
 namespace kb::vda5050 {
 namespace {
@@ -147,8 +146,7 @@ TEST(Recorder, WritesWhatPassesAsAScript) {
     EXPECT_EQ(link.utc_us(7), 7);
     ASSERT_TRUE(file.commit()) << file.error();
   }
-  std::ifstream in(path);
-  const std::string written{std::istreambuf_iterator<char>(in), {}};
+  const std::string written = whole_file(path);
   std::filesystem::remove(path);
   EXPECT_EQ(written,
             "{\"t\":0,\"from\":\"vehicle\",\"topic\":\"connection\",\"message\":{\"connectionState\":\"ONLINE\"}}\n"

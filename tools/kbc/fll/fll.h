@@ -17,8 +17,7 @@ namespace kb::fll {
 
 /// A line `key: value`; both without blanks at their ends.
 struct Line {
-  source::Span span;         ///< the whole line
-  source::Span value_span;
+  source::Span span;   ///< the whole line
   std::string_view key, value;
 };
 

@@ -77,15 +77,11 @@ std::optional<Line> Reader::next_line() {
   at_ = end + 1;
   Line line;
   if (text.empty()) return line;
-  const auto place = [&](std::string_view part) {
-    const auto begin = static_cast<std::uint32_t>(part.data() - bytes.data());
-    return source::Span{file_, begin, begin + static_cast<std::uint32_t>(part.size())};
-  };
-  line.span = place(text);
+  const auto begin = static_cast<std::uint32_t>(text.data() - bytes.data());
+  line.span = {file_, begin, begin + static_cast<std::uint32_t>(text.size())};
   const std::size_t colon = text.find(':');
   line.key = source::trimmed(text.substr(0, colon));
   line.value = colon == std::string_view::npos ? text.substr(text.size()) : source::trimmed(text.substr(colon + 1));
-  line.value_span = line.value.empty() ? line.span : place(line.value);
   if (colon == std::string_view::npos) {
     refuse(line, begun_ ? "it is no `key: value`" : "a file in FLL has lines `key: value`, the first of which is `Engine: NAME`; FCL is another language");
     if (!begun_) return std::nullopt;

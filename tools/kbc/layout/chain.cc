@@ -70,10 +70,9 @@ std::vector<Point> plain(const std::vector<Point>& chain) {
 
 std::vector<Point> bends_of(const std::vector<Point>& chain) { return {chain.begin() + 1, chain.end() - 1}; }
 
-bool same_ground(std::span<const Point> a, std::span<const Point> b) { return lies_along(a, b) && lies_along(b, a); }
-
 bool lies_on(const Layout& layout, const Road& road, std::uint32_t from, const std::vector<Point>& course) {
-  return same_ground(course_of(layout, road), road.from == from ? course : reversed(course));
+  const std::vector<Point> a = course_of(layout, road), b = road.from == from ? course : reversed(course);
+  return lies_along(a, b) && lies_along(b, a);
 }
 
 std::vector<Point> reversed(const std::vector<Point>& points) { return {points.rbegin(), points.rend()}; }

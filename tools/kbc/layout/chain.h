@@ -27,9 +27,8 @@ struct Near { double share = 0.0, distance_m = 0.0; };
 /// Its bends alone.
 [[nodiscard]] std::vector<Point> bends_of(const std::vector<Point>& chain);
 
-/// Whether two chains coincide to a millimetre: curves that are driven there and back differ in their last digits.
-[[nodiscard]] bool same_ground(std::span<const Point> a, std::span<const Point> b);
-/// Whether a road coincides with a course from place `from`, one end of the road, to the other end.
+/// Whether a road coincides with a course from place `from`, one end of the road, to the other end: to a millimetre, as curves that are
+/// driven there and back differ in their last digits.
 [[nodiscard]] bool lies_on(const Layout& layout, const Road& road, std::uint32_t from, const std::vector<Point>& course);
 [[nodiscard]] std::vector<Point> reversed(const std::vector<Point>& points);
 

@@ -8,6 +8,7 @@
 
 #include "compiler/driver/compile.h"
 #include "compiler/model/known_names.h"
+#include "compiler/source/encoding.h"
 
 namespace kb::lsp {
 
@@ -47,8 +48,6 @@ struct Use {
 [[nodiscard]] std::optional<model::RelationId> rows_in(const model::Model& model, model::RelationId relation, std::string_view field);
 
 /// Whether the byte can be part of a name; for letters beyond ASCII only the lexer knows for certain.
-[[nodiscard]] constexpr bool in_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || (static_cast<unsigned char>(c) & 0x80u) != 0;
-}
+[[nodiscard]] constexpr bool in_name(char c) { return source::is_letter_or_digit(c) || c == '_' || (static_cast<unsigned char>(c) & 0x80u) != 0; }
 
 }  // namespace kb::lsp

@@ -83,8 +83,7 @@ std::vector<CellId> find_cells(const program::Program& program, std::string_view
     else for (const std::string_view member : known.members(one)) found.push_back(known.find(member));
     if (found.size() == before && vain != nullptr) vain->emplace_back(one);
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  source::sort_unique(found);
   return found;
 }
 
@@ -101,8 +100,7 @@ std::vector<RuleId> find_rules(const program::Program& program, std::string_view
 std::optional<std::string> closest_rule(const program::Program& program, std::string_view name) {
   std::vector<std::string_view> candidates;
   for (const program::Rule& rule : program.rules) candidates.push_back(rule.tmpl());
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  source::sort_unique(candidates);
   if (name.find_first_of("[.") != std::string_view::npos)
     for (const program::Rule& rule : program.rules) candidates.push_back(rule.name);
   return diagnostics::closest(name, candidates);

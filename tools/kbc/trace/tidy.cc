@@ -162,9 +162,7 @@ class Tidier {
     before_us_ = now_us;
     if (shift_us_ == 0) return;
     note(kLater, row.line);
-    std::string later;
-    program::append_seconds(later, now_us);
-    row.bytes.replace(row.t_begin, row.t_end - row.t_begin, later);
+    row.bytes.replace(row.t_begin, row.t_end - row.t_begin, program::seconds_text(now_us));
   }
 
   void sort(Row row) {

@@ -103,6 +103,27 @@ std::string joined(const json& names) {
   return out;
 }
 
+/// A line of a trace in a few words: "fired `arrive[...]`; set `Gate` 1; runs `Move.mark`; ok".
+std::string summarise_tick(std::string_view line) {
+  const json tick = parse(line);
+  if (!tick.is_object()) return std::string(line.substr(0, 80));
+  std::vector<std::string> parts;
+  static constexpr std::array<std::array<const char*, 2>, 4> groups{
+      {{"events", "event "}, {"lost", "lost "}, {"fired", "fired "}, {"conflicts", "conflict "}}};
+  for (const auto& [key, words] : groups) {
+    if (const auto list = tick.find(key); list != tick.end() && list->is_array() && !list->empty())
+      parts.push_back(words + joined(*list));
+  }
+  if (const auto set = tick.find("set"); set != tick.end() && set->is_object() && !set->empty()) {
+    std::string cells;
+    for (const auto& [cell, value] : set->items())
+      cells += fmt::format("{}`{}` {}", cells.empty() ? "" : ", ", cell, shown(value));
+    parts.push_back("set " + cells);
+  }
+  if (const auto strategy = tick.find("strategy"); strategy != tick.end()) parts.push_back("runs " + shown(*strategy));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 }  // namespace
 
 std::vector<std::string> compare_ticks(std::string_view expected_line, std::string_view actual_line) {
@@ -127,26 +148,6 @@ std::vector<std::string> compare_ticks(std::string_view expected_line, std::stri
   others(expected, true);
   others(actual, false);
   return out;
-}
-
-std::string summarise_tick(std::string_view line) {
-  const json tick = parse(line);
-  if (!tick.is_object()) return std::string(line.substr(0, 80));
-  std::vector<std::string> parts;
-  static constexpr std::array<std::array<const char*, 2>, 4> groups{
-      {{"events", "event "}, {"lost", "lost "}, {"fired", "fired "}, {"conflicts", "conflict "}}};
-  for (const auto& [key, words] : groups) {
-    if (const auto list = tick.find(key); list != tick.end() && list->is_array() && !list->empty())
-      parts.push_back(words + joined(*list));
-  }
-  if (const auto set = tick.find("set"); set != tick.end() && set->is_object() && !set->empty()) {
-    std::string cells;
-    for (const auto& [cell, value] : set->items())
-      cells += fmt::format("{}`{}` {}", cells.empty() ? "" : ", ", cell, shown(value));
-    parts.push_back("set " + cells);
-  }
-  if (const auto strategy = tick.find("strategy"); strategy != tick.end()) parts.push_back("runs " + shown(*strategy));
-  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string with_keys(std::string_view line, const std::vector<std::string_view>& keys) {

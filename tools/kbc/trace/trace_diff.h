@@ -20,9 +20,6 @@ inline constexpr std::array<std::string_view, 8> kTraceKeys{"strategy", "status"
 /// How two ticks (lines of JSON) differ, one sentence each; empty if they say the same. Both must be JSON objects.
 [[nodiscard]] std::vector<std::string> compare_ticks(std::string_view expected, std::string_view actual);
 
-/// A line of a trace in a few words: "fired `arrive[...]`; set `Gate` 1; runs `Move.mark`; ok".
-[[nodiscard]] std::string summarise_tick(std::string_view line);
-
 /// Why a line is not a tick of a trace (not JSON, no object); empty if it is one.
 [[nodiscard]] std::string tick_fault(std::string_view line);
 

@@ -1,7 +1,6 @@
 // Answers as text and as JSON.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "compiler/program/conditions.h"

@@ -273,8 +273,6 @@ void check_actions(Reader& reader, const Order& order) {
   if (ids.size() > kMostActions) reader.wrong(fmt::format("there are {} actions; {} are the most", ids.size(), kMostActions));
 }
 
-}  // namespace
-
 std::variant<Order, Complaint> read_order(std::string_view payload, const Identity& identity) {
   Reader reader("order");
   const std::optional<Json> root = reader.message(payload, identity);
@@ -311,6 +309,8 @@ std::variant<std::vector<Action>, Complaint> read_instant_actions(std::string_vi
   if (reader.failed()) return reader.complaint();
   return actions;
 }
+
+}  // namespace
 
 std::variant<Position, std::string> read_position(const std::string& parameters) {
   json::Fault fault;

@@ -1,7 +1,6 @@
 // Reads a master's messages. Makes the checks that do not depend on the vehicle: 6.6.1 and 6.6.4.1 of VDA 5050 2.1.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -12,19 +11,15 @@
 
 namespace kb::vda5050 {
 
-/// The order in a message, or its first fault: a `validationError`, or an `orderError` if it demands what none of our vehicles can do (a
-/// trajectory, a blocking action on an edge). Never throws. Landmarks and ways are left empty.
-///
-/// Versions other than 2.x, messages to other vehicles and those whose header is not complete are refused. A null counts as missing, as
-/// masters of version 2.0 write it.
-[[nodiscard]] std::variant<Order, Complaint> read_order(std::string_view payload, const Identity& identity);
-
-/// The same for instant actions; their list may be called `instantActions`, as before version 2.0.
-[[nodiscard]] std::variant<std::vector<Action>, Complaint> read_instant_actions(std::string_view payload, const Identity& identity);
-
 /// What a message says; or nothing, if its topic is none of the master's.
 struct ReadMessage {
+  /// An order, or its first fault: a `validationError`, or an `orderError` if it demands what none of our vehicles can do (a trajectory, a
+  /// blocking action on an edge). Landmarks and ways are left empty.
+  ///
+  /// Versions other than 2.x, messages to other vehicles and those whose header is not complete are refused. A null counts as missing, as
+  /// masters of version 2.0 write it.
   using ReadOrder = std::variant<Order, Complaint>;
+  /// The same for instant actions; their list may be called `instantActions`, as before version 2.0.
   using ReadActions = std::variant<std::vector<Action>, Complaint>;
   std::variant<std::monostate, ReadOrder, ReadActions> said;
 };

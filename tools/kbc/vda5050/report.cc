@@ -148,10 +148,10 @@ void Vehicle::State::send_visualization(std::int64_t utc_us) {
 
 void Vehicle::State::send_factsheet(std::int64_t utc_us) {
   Out out = header(identity, factsheets++, utc_us);
-  out["typeSpecification"] = {{"seriesName", sheet.series}, {"agvKinematic", sheet.kinematic}, {"agvClass", sheet.agv_class}, {"maxLoadMass", rounded(sheet.max_load_kg)},
-                              {"localizationTypes", Out::array({sheet.localization})}, {"navigationTypes", Out::array({sheet.navigation})}};
-  out["physicalParameters"] = {{"speedMin", rounded(sheet.speed_min_m_s)}, {"speedMax", rounded(sheet.speed_max_m_s)}, {"accelerationMax", rounded(sheet.acceleration_m_s2)},
-                               {"decelerationMax", rounded(sheet.deceleration_m_s2)}, {"heightMin", rounded(sheet.height_m)}, {"heightMax", rounded(sheet.height_m)},
+  out["typeSpecification"] = {{"seriesName", "Waymark"}, {"agvKinematic", "DIFF"}, {"agvClass", "CARRIER"}, {"maxLoadMass", 0.0},
+                              {"localizationTypes", Out::array({"RFID"})}, {"navigationTypes", Out::array({"PHYSICAL_LINE_GUIDED"})}};
+  out["physicalParameters"] = {{"speedMin", 0.0}, {"speedMax", rounded(sheet.speed_max_m_s)}, {"accelerationMax", rounded(sheet.acceleration_m_s2)},
+                               {"decelerationMax", rounded(sheet.deceleration_m_s2)}, {"heightMin", 0.0}, {"heightMax", 0.0},
                                {"width", rounded(sheet.width_m)}, {"length", rounded(sheet.length_m)}};
   out["protocolLimits"] = limits(sheet.visualization_s);
   Out able = Out::array();

@@ -84,16 +84,10 @@ struct Moment { std::int64_t utc_us = 0, t_us = 0; };
 
 /// The kind of robot, for the factsheet (6.15). Lengths in metres.
 struct Sheet {
-  std::string series = "Waymark";
-  std::string kinematic = "DIFF";              ///< or OMNI, THREEWHEEL
-  std::string agv_class = "CARRIER";           ///< or FORKLIFT, CONVEYOR, TUGGER
-  std::string localization = "RFID";           ///< or NATURAL, REFLECTOR, DMC, SPOT, GRID
-  std::string navigation = "PHYSICAL_LINE_GUIDED";   ///< or VIRTUAL_LINE_GUIDED, AUTONOMOUS
-  double max_load_kg = 0.0;
-  double speed_min_m_s = 0.0, speed_max_m_s = 0.0;
+  double speed_max_m_s = 0.0;
   double acceleration_m_s2 = 0.0, deceleration_m_s2 = 0.0;
-  double height_m = 0.0, width_m = 0.0, length_m = 0.0;
-  double visualization_s = 0.0;                ///< interval of the messages `visualization`, which give its position; 0: never
+  double width_m = 0.0, length_m = 0.0;
+  double visualization_s = 0.0;   ///< interval of the messages `visualization`, which give its position; 0: never
 };
 
 /// What the broker is to send if the vehicle disappears without leaving (`connection` CONNECTIONBROKEN).

@@ -29,12 +29,6 @@ std::size_t exit_of(const sim::Memory& memory, std::string_view name) {
   return static_cast<std::size_t>(found - memory.exits.begin());
 }
 
-std::string seconds(std::int64_t t_us) {
-  std::string text;
-  program::append_seconds(text, t_us);
-  return text;
-}
-
 }  // namespace
 
 Exchange::Exchange(const sim::Knowledge& knowledge, const sim::Labyrinth& labyrinth, const sim::Scenario& robot, ExchangeOptions options)
@@ -89,7 +83,7 @@ std::optional<Mistake> Exchange::take(std::string_view text, Answer& answer) {
   pauses_ = away ? pauses_ + 1 : 0;
   warn_of_what_is_odd(line);
   warn_of_what_nobody_hears(line);
-  if (pauses_ == kManyPauses) warning_ = Mistake{Kind::kWireSlow, {std::to_string(kManyPauses), seconds(options_.pause_us), {}}, "t", line.t_at};
+  if (pauses_ == kManyPauses) warning_ = Mistake{Kind::kWireSlow, {std::to_string(kManyPauses), program::seconds_text(options_.pause_us), {}}, "t", line.t_at};
   hear_buttons(away);
   if (away || rests()) clock_.ticked_us.reset();
   if (!began_ || away) clock_.next_us = multiple_from(t_us, options_.dt_us);
@@ -122,7 +116,7 @@ std::optional<Mistake> Exchange::follow_clock(const Line& line, bool& set_back) 
   const std::optional<std::int64_t> refused_us = std::exchange(refused_us_, std::nullopt);
   const std::int64_t t_us = line.t_us + offset_us_;
   if (!began_ || t_us > clock_.t_us) return std::nullopt;
-  const std::string now = seconds(line.t_us), before = seconds(clock_.t_us - offset_us_);
+  const std::string now = program::seconds_text(line.t_us), before = program::seconds_text(clock_.t_us - offset_us_);
   const bool goes_on = refused_us && line.t_us > *refused_us && line.t_us - *refused_us <= options_.pause_us;
   const std::int64_t since_us = goes_on && leapt_from_ ? *refused_us + offset_us_ - leapt_from_->t_us : 0;
   if (since_us > 0 && since_us <= options_.pause_us) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
 #include "compiler/source/utf8.h"
 
@@ -12,8 +13,8 @@ namespace {
 
 constexpr std::uint16_t kPort = 1883, kPortTls = 8883;   // registered for MQTT at IANA
 
-bool in_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '_'; }
-bool in_address(char c) { return (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F') || (c >= '0' && c <= '9') || c == '.' || c == ':'; }
+bool in_name(char c) { return source::is_letter_or_digit(c) || c == '.' || c == '-' || c == '_'; }
+bool in_address(char c) { return (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F') || source::is_digit(c) || c == '.' || c == ':'; }
 
 /// The parts of what stands between `://` and the first `/`.
 struct Authority {

@@ -6,7 +6,6 @@
 // it tells anew what it is like (`connected_anew`). Only what it said last is kept, for a link that ends before it has connected.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 

@@ -73,7 +73,7 @@ class ScriptReader {
     const bool of_master = draft.from == kSides[0];
     if (of_master && draft.topic != nullptr) reading.word("topic", *draft.topic, kOfMaster, draft.name);
     if (reading.mistake()) return reading.mistake();
-    if (draft.t_us() < t_us_) return Mistake{Kind::kLinkBackwards, {seconds(draft.t_us()), seconds(t_us_), {}}, "t", draft.t->span};
+    if (draft.t_us() < t_us_) return Mistake{Kind::kLinkBackwards, {program::seconds_text(draft.t_us()), program::seconds_text(t_us_), {}}, "t", draft.t->span};
     t_us_ = draft.t_us();
     if (!of_master) return std::nullopt;
     const bool json = draft.message->kind == Json::Kind::kObject;
@@ -82,12 +82,6 @@ class ScriptReader {
   }
 
  private:
-  static std::string seconds(std::int64_t t_us) {
-    std::string text;
-    program::append_seconds(text, t_us);
-    return text;
-  }
-
   std::vector<ScriptMessage>& messages_;
   std::int64_t t_us_ = 0;
 };
@@ -103,14 +97,9 @@ bool is_object(std::string_view payload) {
 
 std::optional<std::vector<ScriptMessage>> read_script(const std::string& path, const source::FileSystem& files, source::Sources& sources,
                                                       diagnostics::Diagnostics& diagnostics) {
-  auto read = files.read(path);
-  if (!read.bytes) {
-    if (read.too_large) diagnostics.report(Kind::kFileTooLarge, {}, {path, std::to_string(source::kMaxFileBytes >> 20)});
-    else diagnostics.report(Kind::kCannotRead, {}, {path, read.error});
-    return std::nullopt;
-  }
-  const source::FileId file = sources.add(path, std::move(*read.bytes));
-  const std::string_view bytes = sources.bytes(file);
+  const auto file = diagnostics::open_file(path, files, sources, diagnostics);
+  if (!file) return std::nullopt;
+  const std::string_view bytes = sources.bytes(*file);
   std::vector<ScriptMessage> messages;
   ScriptReader reader(messages);
   bool good = true;
@@ -120,7 +109,7 @@ std::optional<std::vector<ScriptMessage>> read_script(const std::string& path, c
     if (line.find_first_not_of(" \t\r") != std::string_view::npos) {
       if (const auto mistake = reader.line(line)) {
         const auto at = static_cast<std::uint32_t>(begin);
-        wire::report(*mistake, {file, at + mistake->span.begin, at + mistake->span.end}, diagnostics);
+        wire::report(*mistake, {*file, at + mistake->span.begin, at + mistake->span.end}, diagnostics);
         good = false;
       }
     }
