@@ -24,7 +24,7 @@
 
 namespace mts {
 
-/// Takes at most 2,160 bytes. Cost of a new reading: storing it and, if the range finders are rough, turning 8 n points and sorting them into eight
+/// Takes at most 2,168 bytes. Cost of a new reading: storing it and, if the range finders are rough, turning 8 n points and sorting them into eight
 /// directions. Between readings: eight comparisons.
 class SteadyRanges {
  public:

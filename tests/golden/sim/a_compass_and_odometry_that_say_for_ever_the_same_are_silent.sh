@@ -1,1 +1,1 @@
-# RUN: for sensor in odometry compass; do printf '[[event]]\nwhen = { crossing = "LM6" }\nsensor = "%s"\nfault = "stuck"\nfor = 16\n' $sensor > %t/$sensor.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/$sensor.toml; done
+# RUN: for sensor in odometry compass; do printf "[[event]]\nwhen = { crossing = \"LM6\" }\nsensor = \"$sensor\"\nfault = \"stuck\"\nfor = 16\n" > %t/$sensor.toml; kbc sim ../../../examples/04_simulator/route1.kb --scenario %t/$sensor.toml; done
