@@ -228,13 +228,14 @@ void append_perception(std::string& out, const Program& program) {
     const std::string text = fuzzy::text(prototype.shape);
     if (prototype.text.find('(') == std::string::npos) out += fmt::format("prototype {} = {}\n", prototype.text, text);
   }
-  for (const Perceived& perceived : program.perception.perceived) {
-    out += fmt::format("perceive {} = {}{}\n", program[perceived.fact].name, percept_text(program, perceived.percept),
-                       perceived.lazy ? "  # lazy" : "");
-  }
+  for (const Perceived& perceived : program.perception.perceived) out += print(program, perceived);
 }
 
 }  // namespace
+
+std::string print(const Program& program, const Perceived& perceived) {
+  return fmt::format("perceive {} = {}{}\n", program[perceived.fact].name, percept_text(program, perceived.percept), perceived.lazy ? "  # lazy" : "");
+}
 
 std::string print_condition(const Program& program, CondId condition) {
   std::string out;

@@ -217,6 +217,8 @@ void print(const Program& program, const Sink& sink);
 [[nodiscard]] std::string print(const Program& program);
 /// Some rules in the language's own words, three lines each: name and place, condition, net effects.
 void print(const Program& program, const std::vector<RuleId>& rules, const Sink& sink);
+/// How a fact is perceived, on a line.
+[[nodiscard]] std::string print(const Program& program, const Perceived& perceived);
 /// The documented JSON form (docs/program_json.md).
 void print_json(const Program& program, const Sink& sink);
 [[nodiscard]] std::string print_json(const Program& program);

@@ -14,7 +14,7 @@ std::string reason(int error) {
     case ENOTDIR: return "a part of the path is not a directory";
     case ENOSPC: return "no space left on the disk";
     case EDQUOT: return "the quota of the disk is used up";
-    case EFBIG: return "is too large for the disk";
+    case EFBIG: return "it is too large for the disk";
     case EROFS: return "the file system is read-only";
     case ESTALE: return "the server of its file system does not know it any more";
     case EIO: return "input/output error";

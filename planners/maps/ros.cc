@@ -184,7 +184,7 @@ class MapReader {
 
   std::optional<RosMap> read() {
     image();
-    number("resolution", true, map_.resolution_m, 1e-6, 1e6, "a positive number of metres");
+    number("resolution", true, map_.resolution_m, 1e-6, 1e6, "a number of metres from 1e-6 to 1e6");
     number("occupied_thresh", false, map_.occupied_thresh, 0.0, 1.0, "a share from 0 to 1");
     number("free_thresh", false, map_.free_thresh, 0.0, 1.0, "a share from 0 to 1");
     negate();

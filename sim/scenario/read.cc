@@ -70,6 +70,7 @@ void read_body(TomlTable& robot, Scenario& scenario) {
   double radius_m = static_cast<double>(body.radius_m);
   static_cast<void>(robot.has("size"));   // read_floor has read it
   set("radius", {0.06 * size, 0.2 * size}, radius_m);
+  drive.wheel_base_m = std::min(drive.wheel_base_m, 2.0 * radius_m);   // its wheels are within its body, also where nobody says how far apart they are
   set("wheel_base", {0.05 * size, 2.0 * radius_m}, drive.wheel_base_m);
   set("speed", {0.05 * fast, 1.5 * fast}, drive.speed_m_s);
   set("acceleration", {0.1, 10.0}, drive.acceleration_m_s2);

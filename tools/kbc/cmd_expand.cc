@@ -69,10 +69,13 @@ void count(const program::Program& program, const std::vector<program::RuleId>& 
     session.print(fmt::format("#   {:<{}}  {}  {}\n", one.name, widest, diagnostics::counted(one.instances, "instance"), one.at));
 }
 
-// What has to do with the cells, those that write them first.
-void print_uses(const program::Program& program, const program::CellUses& uses, bool one_cell, Session& session) {
+// What has to do with the cells, which ascend: how they are perceived, and the rules, those that write them first.
+void print_uses(const program::Program& program, const std::vector<program::CellId>& cells, const program::CellUses& uses, Session& session) {
   const auto sink = [&session](std::string_view piece) { session.print(piece); };
-  const std::string_view apart = one_cell ? "does not name it, but" : "names none of them, but";
+  for (const program::Perceived& perceived : program.perception.perceived) {
+    if (std::ranges::binary_search(cells, perceived.fact)) session.print(program::print(program, perceived));
+  }
+  const std::string_view apart = cells.size() == 1 ? "does not name it, but" : "names none of them, but";
   const auto number = [](std::size_t count) { return count == 0 ? std::string("no rule") : diagnostics::counted(count, "rule"); };
   session.print(fmt::format("# written by {}\n", number(uses.writers.size())));
   program::print(program, uses.writers, sink);
@@ -110,7 +113,7 @@ int expand(const ExpandOptions& options, Session& session) {
   if (options.cell.empty()) {
     program::print(program, rules, sink);
   } else {
-    print_uses(program, uses, cells.size() == 1, session);
+    print_uses(program, cells, uses, session);
   }
   return session.exit_code();
 }

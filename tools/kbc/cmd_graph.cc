@@ -29,6 +29,7 @@ struct GraphOptions {
 
 // Refuses an output whose name promises a format that cannot be written.
 void refuse_other_formats(const GraphOptions& options) {
+  if (options.confusion && options.svg()) throw CLI::ValidationError("--confusion", "the table is text, and no picture");
   if (!options.format.empty() || options.confusion || !is_other_picture(options.output)) return;
   throw CLI::ValidationError("--output", "`" + options.output + "` cannot be written; a graph is DOT (`.dot`), or SVG (`.svg`)");
 }

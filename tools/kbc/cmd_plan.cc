@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,8 +66,10 @@ bool choose_methods(Work& work) {
   }
   if (wanted.empty()) wanted.emplace_back("neural");
   for (const std::string& name : wanted) {
-    work.methods.push_back(plans::find_method(name));
-    if (work.methods.back() != nullptr) continue;
+    if (const plans::Method* const method = plans::find_method(name)) {
+      if (std::ranges::find(work.methods, method) == work.methods.end()) work.methods.push_back(method);
+      continue;
+    }
     std::vector<std::string_view> names;
     for (const plans::Method& method : plans::methods()) names.push_back(method.name);
     work.session.diagnostics(work.sources).report(Kind::kPlanUnknownMethod, {}, {name})
@@ -172,12 +175,13 @@ int answer_one(Work& work) {
   std::vector<Session::OutputFile> files;
   if (!work.options.svg.empty()) files.push_back({work.options.svg, draw_svg(panels, panels.size() > 4 ? 4 : 2)});
   if (!work.options.csv.empty()) files.push_back({work.options.csv, csv});
-  if (!files.empty() && !work.session.write_files(files)) return kErrors;
+  bool written = true;   // each by itself
+  for (const Session::OutputFile& file : files) written = work.session.write_files({file}) && written;
   const plans::Result& only = results.front();
   if (results.size() == 1 && only.outcome != plans::Outcome::kReached) {
     work.session.report(Kind::kPlanFailed, {work.methods.front()->name, describe(only, optimum.length_m, work.map)});
   }
-  return work.session.exit_code();
+  return written ? work.session.exit_code() : kErrors;
 }
 
 // Answers all rows of a scenario file.
@@ -196,9 +200,9 @@ int answer_many(Work& work) {
     summaries.push_back(summarise(*method, *rows, answers));
     append_csv(csv, print_csv(*method, work.map.grid, *rows, answers));
   }
-  if (!work.options.csv.empty() && !work.session.write_files({{work.options.csv, csv}})) return kErrors;
+  const bool written = work.options.csv.empty() || work.session.write_files({{work.options.csv, csv}});
   if (!work.to_stdout()) work.session.print(print_table(summaries, work.options.times));
-  return work.session.exit_code();
+  return written ? work.session.exit_code() : kErrors;
 }
 
 int run_plan(const PlanOptions& options, Session& session) {

@@ -69,7 +69,7 @@ constexpr std::array kCommands = {
             "kbc tidy drive.csv -o whole.csv                     # without a half last row, and without rows that go back in time\n"
             "kbc tidy drive.csv -o whole.csv --clock shift       # after a restart of the recorder, time goes on\n"
             "kbc tidy drive.csv -o whole.csv --clock sort        # rows that overtook one another\n",
-            Shared::kMessages, setup_tidy},
+            Shared::kWarns, setup_tidy},
     Command{"explain", "Describe a message at length, with a wrong and a right example",
             "Takes a code from the end of a message, or the name of a warning.",
             "kbc explain KB0101                              # one message\n"
@@ -138,7 +138,7 @@ constexpr std::array kCommands = {
             "kbc plan hall.map --scen hall.map.scen --method neural --csv out.csv   # all rows of a benchmark\n"
             "kbc plan hall.map --from 3,4 --to 40,21 --compare --svg all.svg        # all methods side by side\n"
             "kbc plan --list                                                        # what there is\n",
-            Shared::kMessages, setup_plan},
+            Shared::kWarns, setup_plan},
     Command{"sim", "Let a knowledge base drive a robot through its own map",
             "The map becomes a floor with lines, walls and tags; a robot with noisy sensors drives on it, and the compiled "
             "knowledge base decides. A scenario says where it begins and what goes wrong. Says how it ended, how long it "

@@ -62,8 +62,10 @@ enum ExitCode : int {
 enum class Shared : std::uint8_t {
   kNone,       ///< --color, --quiet
   kMessages,   ///< and --diagnostics-format
-  kCompiles,   ///< and --library, -W..., -w
+  kWarns,      ///< and -W..., -w
+  kCompiles,   ///< and --library
 };
+[[nodiscard]] constexpr bool takes_warnings(Shared shared) { return shared >= Shared::kWarns; }
 
 struct Command {
   std::string_view name;

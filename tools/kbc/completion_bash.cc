@@ -37,7 +37,7 @@ std::string bash_branches(const CommandLine::Entry& entry) {
     if (option->get_items_expected_max() == 0) continue;
     values += fmt::format("    {}) _kbc_reply < <({}); return ;;\n", fmt::join(patterns, "|"), how.empty() ? ":" : how + " -- \"$cur\"");
   }
-  const bool warnings = entry.command->shared == Shared::kCompiles;
+  const bool warnings = takes_warnings(entry.command->shared);
   values += fmt::format("    {}:*)\n      if [[ $cur == -* ]]; then _kbc_reply < <(compgen -W \"{}{}\" -- \"$cur\")\n",
                         entry.app->get_name(), options, warnings ? " -Werror $warnings" : "");
   return values + fmt::format("      else _kbc_reply < <({}:); fi ;;\n", arguments);

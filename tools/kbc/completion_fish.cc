@@ -72,7 +72,7 @@ std::string fish_completion(const CommandLine& line) {
   for (const CLI::Option* option : shown_options(line.app)) out += fish_line("__kbc_no_command", *option);
   for (const CommandLine::Entry& entry : line.entries) {
     const std::string& name = entry.app->get_name();
-    if (entry.command->shared == Shared::kCompiles) compile += " " + name;
+    if (takes_warnings(entry.command->shared)) compile += " " + name;
     out += fmt::format("complete -c kbc -n __kbc_no_command -a {} -d {}\n", name, fish_quoted(entry.command->help));
     for (const CLI::Option* option : shown_options(*entry.app)) {
       if (!names_warnings(*option)) out += fish_line("__kbc_command " + name, *option);

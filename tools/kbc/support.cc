@@ -27,6 +27,8 @@ void add_shared_options(CLI::App& app, SharedOptions& options, Shared which) {
   const auto group = [](CLI::Option* option) { option->group("Shared options"); };
   if (which == Shared::kCompiles) {
     group(app.add_option("--library", options.library, "The folder that holds the standard library `std`")->type_name("DIR"));
+  }
+  if (takes_warnings(which)) {
     group(app.add_option("-W", options.warnings,
                          "-Wname, -Wno-name, -Werror, -Werror=name, -Wno-error=name, -Wstandard-library, -Wallowed: which warnings "
                          "are shown, and which are errors (`kbc explain --list` names them)")

@@ -56,6 +56,7 @@ Reader::Reader(const source::Sources& sources, source::FileId file, diagnostics:
 
 Engine Reader::run() {
   engine_.line.span = {file_, 0, 0};
+  if (sources_.bytes(file_).starts_with(source::kByteOrderMark)) at_ = source::kByteOrderMark.size();
   while (const auto line = next_line()) {
     if (line->key.empty() && line->value.empty()) continue;
     take(*line);

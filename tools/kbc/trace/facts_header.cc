@@ -144,6 +144,7 @@ std::optional<std::uint32_t> FactsReader::find_column(const Field& field, const 
 }
 
 std::optional<std::string> FactsReader::nearest_name(std::string_view name, const Header& header) const {
+  if (const program::Sensor* sensor = find_sensor(name); sensor != nullptr && sensor->array) return fmt::format("{}[0]", name);
   std::vector<std::string> readings;
   for (std::uint32_t r = 0; r < header.readings.size(); ++r) readings.push_back(program_.perception.reading_name(r));
   const std::vector<std::string_view> candidates(readings.begin(), readings.end());

@@ -1,0 +1,1 @@
+# RUN: for radius in 0.06 0.2; do kbc sim ../../../examples/04_simulator/route1.kb --set robot.radius=$radius --csv %t/$radius.csv | head -1; done; cmp -s %t/0.06.csv %t/0.2.csv || echo "12 cm between the wheels drive otherwise than 20"
