@@ -2,8 +2,11 @@
 //
 // note [a sense that is stuck]
 // A sensor that gives the same bits while the wheels turn is stuck. That holds only for sensors known to have noise: those whose values
-// kept changing while the robot stood. A sensor without noise may see the same for metres, such as a floor without paint. Odometry has no
-// noise; but if its speed says that the robot moves, its place must change.
+// kept changing while the robot stood. A sensor without noise may see the same for metres, such as a floor without paint.
+//
+// A compass and odometry are held against what must change with them, so that they need no noise: a compass of whole degrees may say the same
+// along a whole road, but not while the wheels turn the robot by 10 degrees. And if the speed of odometry says that the robot moves, its place
+// must change, within the time after which a silent sense counts as silent.
 #pragma once
 
 #include <cstddef>
@@ -51,44 +54,47 @@ class Liveness {
   float same_m_ = 0.0f, same_s_ = 0.0f;        // since its values last changed
 };
 
-/// The compass and the odometry of a robot. One that is stuck counts as silent.
+/// The compass and the odometry of a robot: see note [a sense that is stuck]. One that is stuck counts as silent.
 class LiveGuides {
  public:
   /// Each period, before the senses are used: those that are stuck become unknown. What the wheels have turned belongs to the odometry.
-  constexpr void step(Senses& senses, float dt_s) noexcept {
-    const float way_m = senses.odometry_known ? magnitude(senses.speed_m_s) * dt_s : 0.0f;
-    const bool may_turn = !senses.turned_known || !turned_known_ || stuck_ || senses.turned_rad != turned_rad_;
-    judge_odometry(senses, way_m, dt_s);
-    const float heading[1] = {senses.heading_rad};
-    compass_.step(senses.heading_known, heading, true, may_turn ? kMayTurn_m : way_m, dt_s);
-    senses.heading_known = compass_.sees();
-    senses.odometry_known = senses.odometry_known && !stuck_;
-    senses.turned_known = senses.turned_known && !stuck_;
+  /// `silence_s`: see Body::longest_silence_s.
+  constexpr void step(Senses& senses, float silence_s, float dt_s) noexcept {
+    judge_odometry(senses, silence_s, dt_s);
+    judge_compass(senses, dt_s);
+    last_ = senses;
+    senses.odometry_known = senses.odometry_known && !odometry_stuck_;
+    senses.turned_known = senses.turned_known && !odometry_stuck_;
+    senses.heading_known = senses.heading_known && magnitude(unmatched_rad_) <= kTurns_rad;
   }
 
  private:
-  constexpr void judge_odometry(const Senses& senses, float way_m, float dt_s) noexcept {
-    const bool same_place = senses.x_m == x_m_ && senses.y_m == y_m_;   // false for NaN
-    const bool same = same_place && senses.speed_m_s == speed_m_s_ && (!senses.turned_known || senses.turned_rad == turned_rad_);
-    moves_ = moves_ || (known_ && senses.odometry_known && !same_place && x_m_ == x_m_ && y_m_ == y_m_);
-    same_m_ = same && senses.odometry_known ? same_m_ + way_m : 0.0f;
-    same_s_ = same && senses.odometry_known ? same_s_ + dt_s : 0.0f;
-    stuck_ = moves_ && same_m_ > kStuck_m && same_s_ > kStuck_s;
-    x_m_ = senses.x_m;
-    y_m_ = senses.y_m;
-    speed_m_s_ = senses.speed_m_s;
-    turned_rad_ = senses.turned_rad;
-    known_ = senses.odometry_known;
-    turned_known_ = senses.turned_known;
+  constexpr void judge_odometry(const Senses& senses, float silence_s, float dt_s) noexcept {
+    const float dx = senses.x_m - last_.x_m, dy = senses.y_m - last_.y_m, square = dx * dx + dy * dy;   // NaN where there is no place
+    const bool known = senses.odometry_known && last_.odometry_known, turns = senses.turned_known && senses.turned_rad != last_.turned_rad;
+    const bool same = known && square <= 0.0f && senses.speed_m_s == last_.speed_m_s && !turns;
+    moves_ = moves_ || (known && square > 0.0f && square < kStep_m * kStep_m);
+    same_m_ = same ? same_m_ + magnitude(senses.speed_m_s) * dt_s : 0.0f;
+    same_s_ = same ? same_s_ + dt_s : 0.0f;
+    odometry_stuck_ = moves_ && same_m_ > kStuck_m && same_s_ > kLate * silence_s;
+  }
+  constexpr void judge_compass(const Senses& senses, float dt_s) noexcept {
+    if (!senses.heading_known || !last_.heading_known || senses.heading_rad != last_.heading_rad) unmatched_rad_ = 0.0f;
+    else if (senses.turned_known && last_.turned_known && !odometry_stuck_) {
+      const float turned_rad = wrapped_angle(senses.turned_rad - last_.turned_rad);
+      if (magnitude(turned_rad) > kDrifts_rad_s * dt_s) unmatched_rad_ = clamped(unmatched_rad_ + turned_rad, -kPi, kPi);
+    }
   }
 
-  static constexpr float kMayTurn_m = 1.0f;                   // as much as a way on which a compass must change: a robot that turns does not stand
-  static constexpr float kStuck_m = 0.08f, kStuck_s = 0.3f;   // a host may give its place ten times a second only
-  Liveness<1> compass_;
-  float x_m_ = 0.0f, y_m_ = 0.0f, speed_m_s_ = 0.0f, turned_rad_ = 0.0f;
-  float same_m_ = 0.0f, same_s_ = 0.0f;                       // what odometry says that it drove, since it said anything else
-  bool known_ = false, turned_known_ = false, stuck_ = false;
-  bool moves_ = false;                                        // its place has changed: not every host gives one
+  static constexpr float kStep_m = 0.3f;                       // no robot drives farther in a period: its odometry began anew elsewhere
+  static constexpr float kStuck_m = 0.08f, kLate = 1.1f;
+  static constexpr float kTurns_rad = 10.0f * kRadPerDeg;
+  static constexpr float kDrifts_rad_s = 0.1f;                 // a gyroscope that turns more slowly may only drift
+  Senses last_{};
+  float same_m_ = 0.0f, same_s_ = 0.0f;                        // what odometry says that it drove, since it said anything else
+  float unmatched_rad_ = 0.0f;                                 // by how much the wheels have turned the robot since the compass said anything else
+  bool odometry_stuck_ = false;
+  bool moves_ = false;                                         // its place has changed: not every host gives one
 };
 
 /// The line sensors and range finders of a robot. A sensor that is stuck counts as silent.

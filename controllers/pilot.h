@@ -68,7 +68,7 @@ class Pilot {
   [[nodiscard]] Motion step(const Senses& senses, float dt_s) noexcept {
     const float dt = as_.in(dt_s, "s");
     heard_ = mts::heard(seen_.in(steady_.step(sees_.in(senses), sees_.in(dt_s, "s"))), body_);
-    guides_.step(heard_, sane_period(dt));
+    guides_.step(heard_, body_.longest_silence_s, sane_period(dt));
     const Senses& steady = heard_;
     place_.step(steady, sane_period(dt));
     if (!in_crossing()) place_.settle(steady, sane_period(dt));

@@ -47,6 +47,7 @@ class Odometer {
   [[nodiscard]] constexpr float unseen_m() const noexcept { return told_ ? unseen_m_ : 0.0f; }
   constexpr void take(const Senses& senses) noexcept {
     told_ = senses.odometry_known && tells(senses);
+    if (!told_) unseen_m_ = 0.0f;
     x_m_ = senses.x_m;
     y_m_ = senses.y_m;
     speed_m_s_ = senses.odometry_known ? senses.speed_m_s : 0.0f;

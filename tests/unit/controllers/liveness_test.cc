@@ -71,70 +71,98 @@ TEST(Liveness, WhatCouldSayNothingElseIsNotStuck) {
 
 // ---- compass and odometry
 
-struct Wheels {
+/// A robot with a compass of whole degrees that drives at 0.4 m/s, or turns.
+struct Guided {
   Senses senses;
   LiveGuides guides;
-  int period = 0;
-  Wheels() { senses.heading_known = senses.odometry_known = senses.turned_known = true; }
-  /// One period at 0.4 m/s along x, or standing. Returns what is left of the senses.
-  Senses step(bool drives, bool compass_works = true, bool odometry_works = true) {
-    ++period;
-    if (compass_works) senses.heading_rad = 0.01f * static_cast<float>(period % 5);
+  float heading_rad = 0.003f;
+  Guided() { senses.heading_known = senses.odometry_known = senses.turned_known = true; }
+  Senses step(float speed_m_s, float turn_rad_s, bool compass_works = true, bool odometry_works = true) {
+    heading_rad += turn_rad_s * kPeriod;
+    if (compass_works) senses.heading_rad = kRadPerDeg * static_cast<float>(static_cast<int>(heading_rad / kRadPerDeg));
     if (odometry_works) {
-      senses.speed_m_s = drives ? 0.4f : 0.0f;
-      senses.x_m += senses.speed_m_s * kPeriod;
+      senses.speed_m_s = speed_m_s;
+      senses.x_m += speed_m_s * kPeriod;
+      senses.turned_rad += turn_rad_s * kPeriod;
     }
     Senses heard = senses;
-    guides.step(heard, kPeriod);
+    guides.step(heard, 0.5f, kPeriod);
     return heard;
+  }
+  /// In how many of so many periods the compass, and odometry, are silent.
+  int silent_compass = 0, silent_odometry = 0;
+  void drive(int periods, float speed_m_s, float turn_rad_s, bool compass_works = true, bool odometry_works = true) {
+    for (int i = 0; i < periods; ++i) {
+      const Senses heard = step(speed_m_s, turn_rad_s, compass_works, odometry_works);
+      silent_compass += heard.heading_known ? 0 : 1;
+      silent_odometry += heard.odometry_known ? 0 : 1;
+    }
   }
 };
 
-TEST(LiveGuides, ACompassWithNoiseThatSaysTheSameOnTheWayIsStuck) {
-  Wheels robot;
-  for (int i = 0; i < 50; ++i) EXPECT_TRUE(robot.step(false).heading_known);
-  for (int i = 0; i < 10; ++i) EXPECT_TRUE(robot.step(true, false).heading_known) << "0.2 s";
-  for (int i = 0; i < 5; ++i) static_cast<void>(robot.step(true, false));
-  EXPECT_FALSE(robot.step(true, false).heading_known);
-  EXPECT_TRUE(robot.step(true, false).odometry_known);
-  EXPECT_TRUE(robot.step(true).heading_known) << "it is well again";
+TEST(LiveGuides, ACompassThatSaysTheSameWhileTheWheelsTurnTheRobotIsStuck) {
+  Guided robot;
+  robot.drive(50, 0.4f, 0.0f);
+  robot.drive(50, 0.0f, 1.0f, false);   // a radian
+  EXPECT_NEAR(robot.silent_compass, 41, 1) << "after 10 degrees";
+  EXPECT_EQ(robot.silent_odometry, 0);
+  robot.silent_compass = 0;
+  robot.drive(10, 0.0f, 1.0f);
+  EXPECT_EQ(robot.silent_compass, 0) << "it is well again";
 }
 
-TEST(LiveGuides, ACompassWithoutNoiseMaySayTheSameOnAStraightWay) {
-  Wheels robot;
-  for (int i = 0; i < 50; ++i) static_cast<void>(robot.step(false, false));
-  for (int i = 0; i < 50; ++i) {   // it turns on the spot, ever more slowly
-    robot.senses.turned_rad += 0.02f / static_cast<float>(i + 1);
-    robot.senses.heading_rad = robot.senses.turned_rad;
-    static_cast<void>(robot.step(false, false));
+TEST(LiveGuides, ACompassOfWholeDegreesMaySayTheSameOnAStraightRoad) {
+  Guided robot;
+  for (int i = 0; i < 50; ++i) robot.drive(1, 0.0f, i % 2 == 0 ? 0.2f : -0.2f);   // it stands where two degrees meet
+  robot.drive(2'000, 0.4f, 0.0f);
+  for (int i = 0; i < 500; ++i) robot.drive(1, 0.4f, i % 2 == 0 ? 0.2f : -0.2f);
+  robot.drive(200, 0.0f, 0.9f);
+  EXPECT_EQ(robot.silent_compass, 0);
+}
+
+TEST(LiveGuides, AGyroscopeThatDriftsProvesNothing) {
+  Guided robot;
+  for (int i = 0; i < 20'000; ++i) {
+    robot.senses.turned_rad += 0.0002f;   // 0.6 degrees a second
+    robot.drive(1, 0.0f, 0.0f);
   }
-  for (int i = 0; i < 500; ++i) EXPECT_TRUE(robot.step(true, false).heading_known);
+  EXPECT_EQ(robot.silent_compass, 0);
 }
 
 TEST(LiveGuides, OdometryWhosePlaceStaysWhileItsSpeedSaysThatItMovesIsStuck) {
-  Wheels robot;
-  for (int i = 0; i < 10; ++i) static_cast<void>(robot.step(true));
-  for (int i = 0; i < 15; ++i) EXPECT_TRUE(robot.step(true, true, false).odometry_known) << "0.3 s";
-  static_cast<void>(robot.step(true, true, false));
-  const Senses heard = robot.step(true, true, false);
-  EXPECT_FALSE(heard.odometry_known);
+  Guided robot;
+  robot.drive(10, 0.4f, 0.0f);
+  robot.drive(50, 0.4f, 0.0f, true, false);
+  EXPECT_NEAR(robot.silent_odometry, 50 - 27, 1) << "0.55 s";
+  const Senses heard = robot.step(0.4f, 0.0f, true, false);
   EXPECT_FALSE(heard.turned_known);
   EXPECT_TRUE(heard.heading_known);
-  EXPECT_TRUE(robot.step(true).odometry_known) << "it is well again";
+  EXPECT_TRUE(robot.step(0.4f, 0.0f).odometry_known) << "it is well again";
+}
+
+TEST(LiveGuides, OdometryMayComeTwiceASecond) {
+  Guided robot;
+  for (int i = 0; i < 500; ++i) {
+    robot.drive(1, 0.4f, 0.0f, true, false);
+    if (i % 25 == 0) robot.senses.x_m += 0.2f;
+    robot.senses.speed_m_s = 0.4f;
+  }
+  EXPECT_EQ(robot.silent_odometry, 0);
 }
 
 TEST(LiveGuides, OdometryOfARobotThatStandsMaySayTheSameForEver) {
-  Wheels robot;
-  for (int i = 0; i < 10; ++i) static_cast<void>(robot.step(true));
-  for (int i = 0; i < 500; ++i) EXPECT_TRUE(robot.step(false).odometry_known);
+  Guided robot;
+  robot.drive(10, 0.4f, 0.0f);
+  robot.drive(500, 0.0f, 0.0f);
+  EXPECT_EQ(robot.silent_odometry, 0);
 }
 
 TEST(LiveGuides, OdometryWithoutAPlaceMaySayTheSameSpeedForEver) {
-  Wheels robot;
-  for (int i = 0; i < 500; ++i) {
-    robot.senses.speed_m_s = 0.4f;
-    EXPECT_TRUE(robot.step(true, true, false).odometry_known);
-  }
+  Guided robot;
+  robot.senses.x_m = 5.0f;   // told once
+  robot.senses.speed_m_s = 0.4f;
+  robot.drive(500, 0.4f, 0.0f, true, false);
+  EXPECT_EQ(robot.silent_odometry, 0);
 }
 
 }  // namespace

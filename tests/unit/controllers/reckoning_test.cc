@@ -135,6 +135,11 @@ TEST(Reckoning, OdometryThatIsFoundStuckHasDrivenBySpeed) {
   EXPECT_NEAR(reckoning.at.x_m, 0.066f, 1e-4f);
   for (int i = 0; i <= 10; ++i) reckoning.step(at(5.0f + 0.006f * static_cast<float>(i), 0.0f, 0.3f), 0.02f);
   EXPECT_NEAR(reckoning.at.x_m, 0.066f + 0.006f * 11.0f, 1e-4f);
+  for (int i = 0; i < 50; ++i) {   // and what was counted once is not counted again
+    silent.odometry_known = i % 2 == 0;
+    reckoning.step(silent, 0.02f);
+  }
+  EXPECT_NEAR(reckoning.at.x_m, 0.066f + 0.006f * 36.0f, 1e-4f);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <ctime>
@@ -17,7 +18,8 @@ extern char** environ;
 namespace kb::wire {
 namespace {
 
-constexpr int kEndsBySelf_ms = 5000, kEndsAsked_ms = 1000;   // long enough for its files to get to a slow card
+constexpr int kEndsBySelf_ms = 5000;   // long enough for its files to get to a slow card
+constexpr int kEndsSoon_ms = 1000, kEndsAsked_ms = 1000;
 
 /// A pipe whose ends other programs do not inherit.
 struct Pipe {
@@ -72,7 +74,7 @@ std::unique_ptr<DriverProcess> DriverProcess::start(const std::string& command, 
 /// Does not reap the process: until it is reaped, no other process gets its number, so `end` may still use the number of its group.
 bool DriverProcess::ends_within(int ms) const {
   constexpr int kStep_ms = 5;
-  for (int gone_ms = 0; gone_ms <= ms; gone_ms += kStep_ms) {
+  for (int gone_ms = 0; gone_ms <= (stop_ != nullptr && stop_() ? std::min(ms, kEndsSoon_ms) : ms); gone_ms += kStep_ms) {
     siginfo_t info{};
     const int looked = ::waitid(P_PID, static_cast<::id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT);
     if (looked == 0 ? info.si_pid == id_ : errno != EINTR) return true;
@@ -86,7 +88,7 @@ std::string DriverProcess::end() {
   if (out_ >= 0) ::close(std::exchange(out_, -1));
   if (in_ >= 0) ::close(std::exchange(in_, -1));
   if (!std::exchange(ended_, true)) {
-    if (!ends_within(kEndsBySelf_ms)) {
+    if (!ends_within(failed_ ? kEndsSoon_ms : kEndsBySelf_ms)) {
       ::kill(-id_, SIGTERM);
       static_cast<void>(ends_within(kEndsAsked_ms));
     }

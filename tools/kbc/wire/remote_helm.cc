@@ -29,6 +29,7 @@ void RemoteHelm::fail(Mistake mistake, std::string report) {
   report_ = std::move(report);
   answer_.strategy.clear();
   seen_.clear();
+  if (process_ != nullptr) process_->fail();
   process_.reset();
 }
 
