@@ -134,7 +134,7 @@ TEST_F(OutputFileTest, that_does_not_fit_leaves_the_old_one_untouched) {
   {
     OutputFile file;
     EXPECT_FALSE(staged(file, path("a.cc"), std::string(100'000, 'x')));
-    EXPECT_EQ(file.error(), "is too large for the disk");
+    EXPECT_EQ(file.error(), "it is too large for the disk");
   }
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
