@@ -199,7 +199,12 @@ class State {
 class GapQuestions {
  public:
   explicit GapQuestions(const Subject& subject)
-      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), common_(subject), told_(subject.instances.size()) {}
+      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), common_(subject), told_(subject.instances.size()) {
+    for (const Cond& cond : program_.conds) {   // parts before the whole
+      const bool in_part = std::ranges::any_of(cond.children, [this](CondId part) { return times_[program::index(part)]; });
+      times_.push_back(in_part || (cond.op == Cond::Op::kFor && cond.duration_us != 0));
+    }
+  }
 
   void run() {
     if (subject_.diagnostics.full(Kind::kUnseenGap)) return;
@@ -220,6 +225,7 @@ class GapQuestions {
 
  private:
   [[nodiscard]] std::optional<Gap> gap_of(const Rule& rule) {
+    if (!times_[program::index(rule.condition)]) return std::nullopt;
     for (const CondId id : program::reachable(program_.conds, {rule.condition})) {
       const Cond& cond = program_[id];
       if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
@@ -356,7 +362,8 @@ class GapQuestions {
   const Program& program_;
   float firing_;
   Common common_;
-  std::vector<bool> told_;   // by family: an instance speaks for all
+  std::vector<bool> told_;    // by family: an instance speaks for all
+  std::vector<bool> times_;   // by condition: there is a timer in it. Most rules of a large map have none
   std::map<std::tuple<CondId, std::uint32_t, bool>, std::optional<Gap>> known_;   // by timer, level, and `hidden`
 };
 
