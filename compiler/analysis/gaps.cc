@@ -199,12 +199,8 @@ class State {
 class GapQuestions {
  public:
   explicit GapQuestions(const Subject& subject)
-      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), common_(subject), told_(subject.instances.size()) {
-    for (const Cond& cond : program_.conds) {   // parts before the whole
-      const bool in_part = std::ranges::any_of(cond.children, [this](CondId part) { return times_[program::index(part)]; });
-      times_.push_back(in_part || (cond.op == Cond::Op::kFor && cond.duration_us != 0));
-    }
-  }
+      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), common_(subject), told_(subject.instances.size()),
+        times_(program::marked(program_, is_timer)) {}
 
   void run() {
     if (subject_.diagnostics.full(Kind::kUnseenGap)) return;
@@ -224,11 +220,12 @@ class GapQuestions {
   }
 
  private:
+  [[nodiscard]] static bool is_timer(const Cond& cond) { return cond.op == Cond::Op::kFor && cond.duration_us != 0; }
+
   [[nodiscard]] std::optional<Gap> gap_of(const Rule& rule) {
     if (!times_[program::index(rule.condition)]) return std::nullopt;
     for (const CondId id : program::reachable(program_.conds, {rule.condition})) {
-      const Cond& cond = program_[id];
-      if (cond.op != Cond::Op::kFor || cond.duration_us == 0) continue;
+      if (!is_timer(program_[id])) continue;
       const bool hidden = rule.standard && !subject_.diagnostics.options().standard_library;
       const auto [known, fresh] = known_.try_emplace({id, rule.level, hidden});
       if (fresh) known->second = search(id, rule.level, hidden);

@@ -12,6 +12,7 @@ void append_number(std::string& out, float value);
 void append_number(std::string& out, double value);
 /// Microseconds as seconds, exactly: "0.4", "12", "0.000001".
 void append_seconds(std::string& out, std::int64_t time_us);
+/// The same as a text of its own.
 [[nodiscard]] std::string seconds_text(std::int64_t time_us);
 /// A JSON string, quoted and escaped.
 void append_json(std::string& out, std::string_view text);

@@ -175,8 +175,7 @@ int answer_one(Work& work) {
   std::vector<Session::OutputFile> files;
   if (!work.options.svg.empty()) files.push_back({work.options.svg, draw_svg(panels, panels.size() > 4 ? 4 : 2)});
   if (!work.options.csv.empty()) files.push_back({work.options.csv, csv});
-  bool written = true;   // each by itself
-  for (const Session::OutputFile& file : files) written = work.session.write_files({file}) && written;
+  const bool written = work.session.write_each(files);
   const plans::Result& only = results.front();
   if (results.size() == 1 && only.outcome != plans::Outcome::kReached) {
     work.session.report(Kind::kPlanFailed, {work.methods.front()->name, describe(only, optimum.length_m, work.map)});

@@ -51,7 +51,7 @@ struct SimOptions {
   }
 };
 
-/// Each by itself: a disk that is full for one has room for another. False (reported) if one was not written.
+/// False (reported) if one was not written.
 bool write_reports(const SimOptions& options, const sim::Recording& recording, const std::string& summary, Session& session) {
   std::vector<Session::OutputFile> files;
   if (!options.summary.empty()) files.push_back({options.summary, summary});
@@ -66,9 +66,7 @@ bool write_reports(const SimOptions& options, const sim::Recording& recording, c
   add(options.svg, sim::report::svg);
   add(options.perfetto, sim::report::chrome_trace);
   add(options.csv, sim::report::csv);
-  bool written = true;
-  for (const Session::OutputFile& file : files) written = session.write_files({file}) && written;
-  return written;
+  return session.write_each(files);
 }
 
 /// Starts the program that --driver names. Null (reported) if it cannot be started.

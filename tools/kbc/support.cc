@@ -294,6 +294,12 @@ bool Session::write_files(const std::vector<OutputFile>& files) {
   return written;
 }
 
+bool Session::write_each(const std::vector<OutputFile>& files) {
+  bool written = true;
+  for (const OutputFile& file : files) written = write_files({file}) && written;
+  return written;
+}
+
 bool Session::write_all_or_none(const std::vector<OutputFile>& files) {
   std::vector<trace::OutputFile> staged(files.size());
   const auto taken = [&](std::size_t i, bool ok) {

@@ -120,6 +120,8 @@ class Session {
   /// and returns false, or throws what a verification throws; old files are then untouched. The path `-` is standard output, printed when all
   /// else is complete. If that fails, no file is new either, unless the reader of standard output has gone.
   bool write_files(const std::vector<OutputFile>& files);
+  /// Writes each by itself: a disk that is full for one may have room for another. False (reported) if one was not written.
+  bool write_each(const std::vector<OutputFile>& files);
 
   /// Writes the product of a command to the file of `-o`, or to standard output if there is none. Returns the exit code.
   [[nodiscard]] int deliver(const std::string& output, std::string bytes);

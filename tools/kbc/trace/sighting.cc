@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tools/kbc/trace/json_number.h"
@@ -24,13 +23,10 @@ std::string line(const Sighting::Part& part) {
   return fmt::format("    {:<28} {:>6.3g}  reads {}, {:g} s old\n", part.condition, part.certainty, read_text(part), part.age_s);
 }
 
-// JSON has no NaN and no infinities.
-ordered_json number_or_text(float value) { return std::isfinite(value) ? json_number(value) : ordered_json(fmt::format("{}", value)); }
-
 ordered_json json_part(const Sighting::Part& part) {
-  if (!part.compares) return {{"fact", part.condition}, {"certainty", number_or_text(part.certainty)}};
-  ordered_json out{{"compares", part.condition}, {"certainty", number_or_text(part.certainty)}, {"reading", nullptr}};
-  if (const float* number = std::get_if<float>(&part.reading)) out["reading"] = number_or_text(*number);
+  if (!part.compares) return {{"fact", part.condition}, {"certainty", json_number(part.certainty)}};
+  ordered_json out{{"compares", part.condition}, {"certainty", json_number(part.certainty)}, {"reading", nullptr}};
+  if (const float* number = std::get_if<float>(&part.reading)) out["reading"] = json_number(*number);
   else if (const auto* text = std::get_if<std::string>(&part.reading)) out["reading"] = *text;
   if (!part.unit.empty()) out["unit"] = part.unit;
   if (part.read) out["age_s"] = part.age_s;
@@ -48,10 +44,10 @@ std::string print(const Sighting& sighting) {
 }
 
 ordered_json json_sighting(const Sighting& sighting) {
-  if (sighting.definition.empty()) return {{"given", number_or_text(sighting.certainty)}};
+  if (sighting.definition.empty()) return {{"given", json_number(sighting.certainty)}};
   ordered_json out{{"definition", sighting.definition}, {"asleep", sighting.asleep}};
   if (sighting.asleep) return out;
-  out["certainty"] = number_or_text(sighting.certainty);
+  out["certainty"] = json_number(sighting.certainty);
   out["parts"] = ordered_json::array();
   for (const Sighting::Part& part : sighting.parts) out["parts"].push_back(json_part(part));
   return out;

@@ -74,10 +74,11 @@ std::unique_ptr<DriverProcess> DriverProcess::start(const std::string& command, 
 /// Does not reap the process: until it is reaped, no other process gets its number, so `end` may still use the number of its group.
 bool DriverProcess::ends_within(int ms) const {
   constexpr int kStep_ms = 5;
-  for (int gone_ms = 0; gone_ms <= (stop_ != nullptr && stop_() ? std::min(ms, kEndsSoon_ms) : ms); gone_ms += kStep_ms) {
+  for (int gone_ms = 0; gone_ms <= ms; gone_ms += kStep_ms) {
     siginfo_t info{};
     const int looked = ::waitid(P_PID, static_cast<::id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT);
     if (looked == 0 ? info.si_pid == id_ : errno != EINTR) return true;
+    if (channel_.stopped()) ms = std::min(ms, kEndsSoon_ms);
     const timespec step{0, kStep_ms * 1'000'000L};
     ::nanosleep(&step, nullptr);
   }

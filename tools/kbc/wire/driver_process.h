@@ -28,12 +28,11 @@ class DriverProcess {
   [[nodiscard]] std::string end();
 
  private:
-  DriverProcess(::pid_t id, int in, int out, bool (*stop)()) : id_(id), in_(in), out_(out), stop_(stop), channel_(in, out, stop) {}
+  DriverProcess(::pid_t id, int in, int out, bool (*stop)()) : id_(id), in_(in), out_(out), channel_(in, out, stop) {}
   [[nodiscard]] bool ends_within(int ms) const;
 
   ::pid_t id_;
   int in_, out_;
-  bool (*stop_)();
   int status_ = 0;
   bool ended_ = false, failed_ = false;
   LineChannel channel_;

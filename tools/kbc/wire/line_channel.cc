@@ -33,7 +33,7 @@ NoPipeSignal::~NoPipeSignal() { sigaction(SIGPIPE, &old_, nullptr); }
 /// Waits until the file is ready (kLine) or something else ends the wait.
 LineChannel::Came LineChannel::wait(int file, short for_what, std::int64_t until_ms) const {
   for (;;) {
-    if (stop_ != nullptr && stop_()) return Came::kStopped;
+    if (stopped()) return Came::kStopped;
     const std::int64_t left_ms = until_ms - now_ms();
     pollfd one{file, for_what, 0};
     const int ready = ::poll(&one, 1, static_cast<int>(std::clamp<std::int64_t>(left_ms, 0, kLook_ms)));

@@ -44,6 +44,8 @@ class LineChannel {
   /// can write the rest of it.
   [[nodiscard]] Came write(std::string_view line, int within_ms);
   [[nodiscard]] Came write_on(int within_ms);
+  /// What `stop` says.
+  [[nodiscard]] bool stopped() const { return stop_ != nullptr && stop_(); }
   /// errno of the failure.
   [[nodiscard]] int error() const { return error_; }
 
