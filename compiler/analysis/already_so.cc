@@ -1,10 +1,10 @@
 // Reports rules that change nothing, because all that they write is so already.
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
-#include "compiler/analysis/writers.h"
 #include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
@@ -36,8 +36,8 @@ std::vector<std::vector<float>> values_of_cells(const Program& program) {
 class AlreadySo {
  public:
   explicit AlreadySo(const Subject& subject)
-      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), exclusive_(exclusive_at_all_times(program_)),
-        values_(values_of_cells(program_)), writers_(program_), satisfier_(program_, subject.domains, subject.confusions.get()) {}
+      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), values_(values_of_cells(program_)),
+        satisfier_(subject.satisfier()) {}
 
   void run() {
     ByFamily<bool> found(subject_);
@@ -73,17 +73,17 @@ class AlreadySo {
   /// The member that the rule writes, of which `is_so` holds, keeps the others down.
   [[nodiscard]] bool is_clear(const Rule& rule, std::uint32_t group) const {
     const auto whole = [this](CellId cell) { return std::ranges::all_of(values_[program::index(cell)], [](float value) { return value == 1.0f || value == -1.0f; }); };
-    return exclusive_[group] && std::ranges::all_of(program_.exclusive[group], whole) &&
+    return subject_.exclusive(group) && std::ranges::all_of(program_.exclusive[group], whole) &&
            std::ranges::any_of(rule.writes, [&](const program::Write& write) { return write.value >= firing_ && subject_.group_of[program::index(write.cell)] == group; });
   }
 
   /// Whether another rule of the level can fire with it and write otherwise, so that the rule has a say in what comes of it. A `reset` silences the rule.
   [[nodiscard]] bool meets_another_value(const Rule& rule) {
-    return std::ranges::any_of(rule.writes, [&](const program::Write& write) { return differs(writers_.by_name[program::index(write.cell)], rule, write); }) ||
+    return std::ranges::any_of(rule.writes, [&](const program::Write& write) { return differs(subject_.writers.by_name[program::index(write.cell)], rule, write); }) ||
            std::ranges::any_of(rule.clears, [&](std::uint32_t group) { return raised_beside(rule, group); });
   }
 
-  [[nodiscard]] bool differs(const std::vector<RuleId>& others, const Rule& rule, const program::Write& write) {
+  [[nodiscard]] bool differs(std::span<const RuleId> others, const Rule& rule, const program::Write& write) {
     return std::ranges::any_of(of_level(program_, others, rule.level), [&](RuleId id) {
       const auto value = program::net_value(program_, subject_.group_of, program_[id], write.cell);
       return value && *value != write.value && may_meet(rule, id);
@@ -92,7 +92,7 @@ class AlreadySo {
 
   /// Whether another rule raises another member of a group that the rule clears.
   [[nodiscard]] bool raised_beside(const Rule& rule, std::uint32_t group) {
-    return std::ranges::any_of(of_level(program_, writers_.by_clear[group], rule.level), [&](RuleId id) {
+    return std::ranges::any_of(of_level(program_, subject_.writers.by_clear[group], rule.level), [&](RuleId id) {
       return (program_[id].clears != rule.clears || program_[id].writes != rule.writes) && may_meet(rule, id);
     });
   }
@@ -105,10 +105,8 @@ class AlreadySo {
   const Subject& subject_;
   const Program& program_;
   float firing_;
-  std::vector<bool> exclusive_;              // by group: at all times
   std::vector<std::vector<float>> values_;   // by cell
-  Writers writers_;
-  Satisfier satisfier_;
+  Satisfier& satisfier_;
 };
 
 }  // namespace

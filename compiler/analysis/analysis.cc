@@ -31,7 +31,7 @@ void diagnose(const model::Model& model, const program::Program& program, const 
     diagnostics.report(diagnostics::Kind::kNothingDeclared, {source::FileId{0}, 0, 0}, {});
     return;
   }
-  Subject subject = study(model, program, diagnostics);
+  Subject subject(model, program, diagnostics);
   diagnose_levels(subject);
   diagnose_look_alikes(subject);
   diagnose_cells(subject);

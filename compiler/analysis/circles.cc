@@ -18,7 +18,7 @@ using program::RuleId;
 
 class CircleQuestions {
  public:
-  explicit CircleQuestions(Subject& subject) : subject_(subject), program_(subject.program), never_(subject.program.cells.size(), false) {}
+  explicit CircleQuestions(Subject& subject) : subject_(subject), program_(subject.program), satisfier_(subject.satisfier()), never_(subject.program.cells.size(), false) {}
 
   void run() {
     bool any = false;
@@ -27,7 +27,6 @@ class CircleQuestions {
       any = any || never_[i];
     }
     if (!any) return;
-    satisfier_.emplace(program_, subject_.domains, subject_.confusions.get());
     for (const Clan& clan : subject_.clans) {
       if (clan.indexed && !std::ranges::all_of(clan.cells, [this](CellId cell) { return never(cell); })) continue;
       for (const CellId cell : clan.cells) {
@@ -47,7 +46,7 @@ class CircleQuestions {
   [[nodiscard]] std::optional<CellId> awaited(const Rule& rule) {
     for (const program::CondId part : program::conjuncts(program_, rule.condition)) {
       const Goal goal{part, true};
-      if (satisfier_->together({&goal, 1}, rule.level) != Answer::kNo) continue;
+      if (satisfier_.together({&goal, 1}, rule.level) != Answer::kNo) continue;
       for (const program::CondId id : program::reachable(program_.conds, {part})) {
         const program::Cond& cond = program_[id];
         if (cond.op == program::Cond::Op::kIs && cond.term == program::Term::kHigh && never(cond.cell)) return cond.cell;
@@ -82,8 +81,8 @@ class CircleQuestions {
 
   Subject& subject_;
   const Program& program_;
+  Satisfier& satisfier_;
   std::vector<bool> never_;   // by cell: a rule would raise it, but none that can fire
-  std::optional<Satisfier> satisfier_;
 };
 
 }  // namespace

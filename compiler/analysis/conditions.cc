@@ -32,9 +32,8 @@ class ConditionQuestions {
   explicit ConditionQuestions(Subject& subject)
       : subject_(subject),
         program_(subject.program),
-        widest_(widest_domains(subject.program)),
-        narrow_satisfier_(subject.program, subject.domains, subject.confusions.get()),
-        wide_satisfier_(subject.program, widest_, subject.confusions.get()) {}
+        narrow_satisfier_(subject.satisfier()),
+        wide_satisfier_(subject.wide_satisfier()) {}
 
   void run() {
     diagnose_timers();
@@ -303,8 +302,7 @@ class ConditionQuestions {
 
   Subject& subject_;
   const Program& program_;
-  Domains widest_;
-  Satisfier narrow_satisfier_, wide_satisfier_;
+  Satisfier &narrow_satisfier_, &wide_satisfier_;
   std::vector<bool> undecided_;    // by family: it asks which strategy runs before that is decided
   std::vector<bool> always_true_;  // by family
   std::vector<bool> settled_;      // by family: see `settled`
@@ -315,7 +313,7 @@ class ConditionQuestions {
 void diagnose_conditions(Subject& subject) { ConditionQuestions(subject).run(); }
 
 std::vector<bool> find_dead_rules(const model::Model& model, const Program& program, diagnostics::Diagnostics& diagnostics) {
-  Subject subject = study(model, program, diagnostics);
+  Subject subject(model, program, diagnostics);
   return ConditionQuestions(subject).dead_rules();
 }
 

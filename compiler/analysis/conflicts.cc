@@ -57,7 +57,7 @@ struct Contest {
 class ConflictQuestions {
  public:
   explicit ConflictQuestions(Subject& subject)
-      : subject_(subject), program_(subject.program), satisfier_(subject.program, subject.domains, subject.confusions.get()) {}
+      : subject_(subject), program_(subject.program), satisfier_(subject.satisfier()) {}
 
   void run() {
     contested_.resize(program_.cells.size() + program_.exclusive.size());
@@ -340,7 +340,7 @@ class ConflictQuestions {
 
   Subject& subject_;
   const Program& program_;
-  Satisfier satisfier_;
+  Satisfier& satisfier_;
   std::unordered_map<std::uint32_t, Demands> demands_;   // of rules of one level; looked up, never iterated
   std::size_t demanded_ = 0;                             // the number of single demands in it
   std::vector<std::uint8_t> contested_;                  // by thing: whether a rule of the level raises it, and lowers it

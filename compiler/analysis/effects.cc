@@ -225,13 +225,25 @@ struct SameRule {
   bool operator()(const Rule* a, const Rule* b) const { return a->level == b->level && a->mode == b->mode && a->condition == b->condition && program::same_effects(*a, *b); }
 };
 
+/// By condition: whether several rules have it.
+std::vector<bool> shared_conditions(const Program& program) {
+  std::vector<bool> met(program.conds.size(), false), shared(program.conds.size(), false);
+  for (const Rule& rule : program.rules) {
+    const std::size_t condition = program::index(rule.condition);
+    shared[condition] = met[condition];
+    met[condition] = true;
+  }
+  return shared;
+}
+
 void diagnose_duplicates(Subject& subject) {
   const Program& program = subject.program;
+  const std::vector<bool> shared = shared_conditions(program);
   std::unordered_map<const Rule*, RuleId, HashOfRule, SameRule> first_of;   // of rules that are the same
   ByFamily<RuleId> found(subject);
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];
-    if (writes_nothing(rule)) continue;
+    if (!shared[program::index(rule.condition)] || writes_nothing(rule)) continue;
     const auto [twin, fresh] = first_of.try_emplace(&rule, RuleId{i});
     if (!fresh && program[twin->second].span != rule.span) found.add(RuleId{i}, twin->second);   // instances of one rule: see KB1060, unused-binder
   }
@@ -250,8 +262,7 @@ void diagnose_duplicates(Subject& subject) {
 void diagnose_self_defeating(Subject& subject) {
   const Program& program = subject.program;
   const std::vector<bool> timed = program::marked(program, [](const program::Cond& cond) { return cond.op == program::Cond::Op::kFor; });
-  const Domains widest = widest_domains(program);
-  Satisfier satisfier(program, widest, subject.confusions.get());
+  Satisfier& satisfier = subject.wide_satisfier();
   ByFamily<CellId> found(subject);
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     const Rule& rule = program.rules[i];

@@ -10,13 +10,13 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
-#include "compiler/analysis/writers.h"
 #include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 
@@ -45,7 +45,7 @@ struct Gap {
 /// What all questions share.
 struct Common {
   explicit Common(const Subject& of)
-      : subject(of), program(of.program), writers(program), exclusive(exclusive_at_all_times(program)), satisfier(program, of.domains, of.confusions.get()) {}
+      : subject(of), program(of.program), satisfier(of.satisfier()) {}
 
   const Demands& demands_of(RuleId rule) {
     const auto [known, fresh] = demands.try_emplace(rule);
@@ -56,9 +56,7 @@ struct Common {
 
   const Subject& subject;
   const Program& program;
-  Writers writers;
-  std::vector<bool> exclusive;   // by group: at all times
-  Satisfier satisfier;
+  Satisfier& satisfier;
   std::map<RuleId, Demands> demands;
   std::uint64_t steps = 0;
 };
@@ -132,7 +130,7 @@ class State {
 
   void keep_others_down(std::uint32_t variable) {
     const std::uint32_t group = common_.subject.group_of[variable];
-    if (group == program::kNoGroup || !common_.exclusive[group] || program_.exclusive[group].size() > kFewMembers) return;
+    if (group == program::kNoGroup || !common_.subject.exclusive(group) || program_.exclusive[group].size() > kFewMembers) return;
     for (const CellId member : program_.exclusive[group]) {
       const auto other = static_cast<std::uint32_t>(member);
       if (other != variable) values_[other] = static_cast<std::uint8_t>(possible(other) & ~kHighRegions);
@@ -168,12 +166,12 @@ class State {
   /// What the rules of a level, except one, may write to a cell, if they can fire in this state.
   [[nodiscard]] Regions written_at(std::uint32_t level, std::uint32_t variable, RuleId except) const {
     const std::uint32_t group = common_.subject.group_of[variable];
-    Regions regions = written_by(common_.writers.by_name[variable], level, variable, except);
-    if (group != program::kNoGroup) regions |= written_by(common_.writers.by_clear[group], level, variable, except);
-    return regions | written_by(common_.writers.by_reset, level, variable, except);
+    Regions regions = written_by(common_.subject.writers.by_name[variable], level, variable, except);
+    if (group != program::kNoGroup) regions |= written_by(common_.subject.writers.by_clear[group], level, variable, except);
+    return regions | written_by(common_.subject.writers.by_reset, level, variable, except);
   }
 
-  [[nodiscard]] Regions written_by(const std::vector<RuleId>& rules, std::uint32_t level, std::uint32_t variable, RuleId except) const {
+  [[nodiscard]] Regions written_by(std::span<const RuleId> rules, std::uint32_t level, std::uint32_t variable, RuleId except) const {
     Regions regions = 0;
     for (const RuleId id : of_level(program_, rules, level)) {
       ++common_.steps;
@@ -261,7 +259,7 @@ class GapQuestions {
   /// The rules that leave the cell high, or not high.
   [[nodiscard]] std::vector<RuleId> that_write(CellId cell, bool high) {
     std::set<RuleId> all;
-    const auto add = [&](const std::vector<RuleId>& rules) {
+    const auto add = [&](std::span<const RuleId> rules) {
       for (const RuleId id : rules) {
         ++common_.steps;
         const Rule& rule = program_[id];
@@ -269,9 +267,9 @@ class GapQuestions {
         if (value && (*value >= firing_) == high) all.insert(id);
       }
     };
-    add(common_.writers.by_name[program::index(cell)]);
-    if (const std::uint32_t group = subject_.group_of[program::index(cell)]; group != program::kNoGroup) add(common_.writers.by_clear[group]);
-    add(common_.writers.by_reset);
+    add(common_.subject.writers.by_name[program::index(cell)]);
+    if (const std::uint32_t group = subject_.group_of[program::index(cell)]; group != program::kNoGroup) add(common_.subject.writers.by_clear[group]);
+    add(common_.subject.writers.by_reset);
     return {all.begin(), all.end()};
   }
 

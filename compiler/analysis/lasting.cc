@@ -27,7 +27,7 @@ struct Lasting {
 class LastingQuestions {
  public:
   explicit LastingQuestions(const Subject& subject)
-      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), satisfier_(program_, subject.domains, subject.confusions.get()),
+      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), satisfier_(subject.satisfier()),
         lowered_(program_.cells.size(), false), raised_once_(program_.cells.size(), false), spared_by_clears_(program_.cells.size()), raised_by_resets_(program_.cells.size()),
         dead_(program_.cells.size(), RuleId::kNone), dead_clears_(program_.exclusive.size()), clears_(program_.exclusive.size()) {
     find_strategies();
@@ -191,7 +191,7 @@ class LastingQuestions {
   const Subject& subject_;
   const Program& program_;
   float firing_;
-  Satisfier satisfier_;
+  Satisfier& satisfier_;
   std::uint32_t resets_ = 0;
   std::vector<RuleId> dead_resets_;                                  // of the rules that can never fire, those that reset
   std::vector<bool> lowered_;                                        // by cell: a rule writes less than `firing` to it

@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "compiler/analysis/subject.h"
-#include "compiler/analysis/writers.h"
 #include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 
@@ -162,12 +161,12 @@ class Lazy {
 
   /// The rules that write a cell by name or with the rest of its group, ascending.
   [[nodiscard]] std::vector<RuleId> writers_of(CellId cell) {
-    if (!writers_) writers_.emplace(program_);
-    const std::vector<RuleId>& named = writers_->by_name[program::index(cell)];
+    const auto& named = subject_.writers.by_name[program::index(cell)];
     const std::uint32_t group = subject_.group_of[program::index(cell)];
-    if (group == program::kNoGroup) return named;
+    if (group == program::kNoGroup) return {named.begin(), named.end()};
+    const std::vector<RuleId>& cleared = subject_.writers.by_clear[group];
     std::vector<RuleId> all;
-    std::set_union(named.begin(), named.end(), writers_->by_clear[group].begin(), writers_->by_clear[group].end(), std::back_inserter(all));
+    std::set_union(named.begin(), named.end(), cleared.begin(), cleared.end(), std::back_inserter(all));
     return all;
   }
 
@@ -183,7 +182,6 @@ class Lazy {
   std::vector<bool> reads_;                               // by condition: whether it reads a lazy fact
   std::vector<program::Alternatives> alternatives_;       // by place
   std::vector<std::vector<CellId>> users_;                // by place: the facts that are defined by it
-  std::optional<Writers> writers_;                        // made at the first question
   std::set<CellId> blind_;                                // of the rule at hand: see `look_through`
   std::set<std::tuple<std::uint32_t, CellId, Op>> told_;  // reported: rule as written, fact, and `event`, `lost`, or `not` for a blind one
 };

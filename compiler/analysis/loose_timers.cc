@@ -13,7 +13,6 @@
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
-#include "compiler/analysis/writers.h"
 #include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 
@@ -37,7 +36,7 @@ struct Loose {
 class LooseTimers {
  public:
   explicit LooseTimers(const Subject& subject)
-      : subject_(subject), program_(subject.program), writers_(program_), satisfier_(program_, subject.domains, subject.confusions.get()) {}
+      : subject_(subject), program_(subject.program), satisfier_(subject.satisfier()) {}
 
   void run() {
     std::map<std::tuple<source::FileId, std::uint32_t, std::uint32_t>, Loose> found;   // by place, and by rule as written
@@ -94,7 +93,7 @@ class LooseTimers {
     const Goal apart[] = {{timed(timer), true}, {state, false}};
     if (satisfier_.together(apart, rule.level) != Answer::kYes) return false;
     return std::ranges::any_of(asked(state), [&](CellId cell) {
-      return std::ranges::any_of(writers_.by_name[program::index(cell)], [&](RuleId id) {
+      return std::ranges::any_of(subject_.writers.by_name[program::index(cell)], [&](RuleId id) {
         return begins(program_[id], cell, state) && fires_while(program_[id], timed(timer)) && (!always || implies(program_[id], timer));
       });
     });
@@ -139,8 +138,7 @@ class LooseTimers {
 
   const Subject& subject_;
   const Program& program_;
-  Writers writers_;
-  Satisfier satisfier_;
+  Satisfier& satisfier_;
 };
 
 }  // namespace

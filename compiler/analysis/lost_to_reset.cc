@@ -8,7 +8,6 @@
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
-#include "compiler/analysis/writers.h"
 #include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
@@ -32,8 +31,8 @@ struct Lost {
 class LostToReset {
  public:
   explicit LostToReset(const Subject& subject)
-      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), writers_(program_),
-        satisfier_(program_, subject.domains, subject.confusions.get()), is_high_(program_.cells.size(), CondId::kNone),
+      : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), satisfier_(subject.satisfier()),
+        is_high_(program_.cells.size(), CondId::kNone),
         passed_over_(program_.cells.size(), false) {
     for (const CellId strategy : program_.priority) {
       for (const CellId satellite : program_[strategy].satellites) passed_over_[program::index(satellite)] = true;
@@ -45,7 +44,7 @@ class LostToReset {
   }
 
   void run() {
-    if (writers_.by_reset.empty()) return;
+    if (subject_.writers.by_reset.empty()) return;
     ByFamily<Lost> found(subject_);
     for (std::uint32_t i = 0; i < program_.rules.size() && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {
       if (const auto lost = lost_by(program_.rules[i])) found.add(RuleId{i}, *lost);
@@ -110,8 +109,8 @@ class LostToReset {
       return meet(rule, other.condition, other.level) == Answer::kNo;
     };
     const std::uint32_t group = subject_.group_of[program::index(cell)];
-    const bool all = std::ranges::all_of(writers_.by_name[program::index(cell)], agrees) &&
-                     (group == program::kNoGroup || std::ranges::all_of(writers_.by_clear[group], agrees));
+    const bool all = std::ranges::all_of(subject_.writers.by_name[program::index(cell)], agrees) &&
+                     (group == program::kNoGroup || std::ranges::all_of(subject_.writers.by_clear[group], agrees));
     const CondId high = is_high_[program::index(cell)];
     return all && lowered && (high == CondId::kNone || meet(rule, high, rule.level) == Answer::kYes);
   }
@@ -125,7 +124,7 @@ class LostToReset {
   /// A rule that resets the cell while the condition of `rule` holds, and leaves the condition as it is.
   [[nodiscard]] RuleId reset_beside(const Rule& rule, CellId cell) {
     const Demands demands = satisfier_.demands(rule.condition, rule.level);
-    for (const RuleId id : writers_.by_reset) {
+    for (const RuleId id : subject_.writers.by_reset) {
       const Rule& reset = program_[id];
       const float value = program::net_value(program_, subject_.group_of, reset, cell).value_or(1.0f);
       if (value >= firing_ || undone(subject_, demands, reset) || meet(rule, reset.condition, reset.level) != Answer::kYes) continue;
@@ -174,8 +173,7 @@ class LostToReset {
   const Subject& subject_;
   const Program& program_;
   float firing_;
-  Writers writers_;
-  Satisfier satisfier_;
+  Satisfier& satisfier_;
   std::map<RuleId, std::vector<const Rule*>> beside_;   // by rule that resets: those that wait for the same facts
   std::vector<CondId> is_high_;   // by cell: the condition that it is, if any rule asks for that
   std::vector<bool> passed_over_;   // by cell: a strategy is wanted by it

@@ -29,7 +29,6 @@ class PriorityQuestions {
   explicit PriorityQuestions(Subject& subject)
       : subject_(subject),
         program_(subject.program),
-        exclusive_(exclusive_at_all_times(program_)),
         first_(program_.first_strategy()),
         count_(program_.cells.size() - first_) {
     for (std::uint32_t i = 0; i < count_; ++i) {
@@ -80,7 +79,7 @@ class PriorityQuestions {
     if (wanting_[a].empty() || wanting_[b].empty()) return false;
     return std::any_of(wanting_[a].begin(), wanting_[a].end(), [&](CellId x) {
       const std::uint32_t group = subject_.group_of[program::index(x)];
-      if (group == program::kNoGroup || !exclusive_[group]) return true;
+      if (group == program::kNoGroup || !subject_.exclusive(group)) return true;
       return std::any_of(wanting_[b].begin(), wanting_[b].end(), [&](CellId y) { return group != subject_.group_of[program::index(y)]; });
     });
   }
@@ -185,7 +184,6 @@ class PriorityQuestions {
 
   Subject& subject_;
   const Program& program_;
-  std::vector<bool> exclusive_;                // by group
   std::size_t first_;                          // of the strategies, which are numbered from here
   std::size_t count_;
   Nodes unit_;                                 // by strategy: members of one group share one

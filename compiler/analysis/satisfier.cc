@@ -12,7 +12,6 @@ using program::CellKind;
 using program::Cond;
 using program::CondId;
 
-constexpr std::uint32_t kNoChoice = 0xFFFFFFFFu;
 constexpr std::uint32_t kNobody = 0xFFFFFFFFu;
 constexpr std::size_t kNothingOpen = static_cast<std::size_t>(-1);
 constexpr std::uint64_t kStepsPerQuestion = 50'000;
@@ -26,29 +25,36 @@ bool high_while_seen(const program::Program& program, CellId fact) {
 
 }  // namespace
 
-Satisfier::Satisfier(const program::Program& program, const Domains& domains, Confusions* confusions)
-    : program_(program), domains_(domains), confusions_(program.perception.perceived.size() > 1 ? confusions : nullptr) {
-  values_ = domains.cells;
-  values_.insert(values_.end(), domains.facts.begin(), domains.facts.end());
-  values_.resize(values_.size() + program.conds.size(), kTimerTrue | kTimerFalse);
-  choice_of_.assign(values_.size(), kNoChoice);
-  std::uint32_t choices = 0;
-  const std::vector<bool> exclusive = exclusive_at_all_times(program);
+Satisfier::Choices Satisfier::find_choices(const program::Program& program) {
+  Choices choices{exclusive_at_all_times(program), std::vector<std::uint32_t>(program.cells.size() + program.facts, kNoChoice)};
   for (std::size_t i = 0; i < program.exclusive.size(); ++i) {
-    if (!exclusive[i]) continue;
+    if (!choices.exclusive[i]) continue;
     const std::vector<CellId>& group = program.exclusive[i];
     const bool facts = program[group.front()].kind == CellKind::kFact;
     for (const CellId member : group) {
-      choice_of_[program::index(member)] = choices;
-      if (facts && high_while_seen(program, member)) choice_of_[sighting_of(member)] = choices + 1;
+      choices.of[program::index(member)] = choices.count;
+      if (facts && high_while_seen(program, member)) choices.of[program.cells.size() + program::index(member)] = choices.count + 1;
     }
-    choices += facts ? 2 : 1;
+    choices.count += facts ? 2 : 1;
   }
-  for (const CellId strategy : program.priority) choice_of_[program::index(strategy)] = choices;
-  holder_.assign(choices + 1, kNobody);
-  elapsed_.resize(program.conds.size());
+  for (const CellId strategy : program.priority) choices.of[program::index(strategy)] = choices.count;
+  ++choices.count;
+  return choices;
+}
+
+Satisfier::Satisfier(const program::Program& program, const Domains& domains, std::shared_ptr<const Choices> choices, Confusions* confusions)
+    : program_(program), domains_(domains), confusions_(program.perception.perceived.size() > 1 ? confusions : nullptr), exclusive_choices_(std::move(choices)) {
+  values_ = domains.cells;
+  values_.insert(values_.end(), domains.facts.begin(), domains.facts.end());
+  values_.resize(values_.size() + program.conds.size(), kTimerTrue | kTimerFalse);
+  holder_.assign(exclusive_choices_->count, kNobody);
   find_timed_events();
 }
+
+Satisfier::Satisfier(const program::Program& program, const Domains& domains, Confusions* confusions)
+    : Satisfier(program, domains, std::make_shared<const Choices>(find_choices(program)), confusions) {}
+
+Satisfier::Satisfier(const Satisfier& other, const Domains& domains) : Satisfier(other.program_, domains, other.exclusive_choices_, other.confusions_) {}
 
 std::uint32_t Satisfier::sighting_of(CellId fact) const {
   return static_cast<std::uint32_t>(program_.cells.size() + program::index(fact));
@@ -75,7 +81,7 @@ std::uint8_t Satisfier::allowed(std::uint32_t variable) const {
   const std::size_t cells = program_.cells.size();
   if (variable >= cells + program_.facts) return static_cast<std::uint8_t>(values & left_by_others(variable));
   if (control_level_ && variable < cells && program_.cells[variable].kind == CellKind::kStrategy) values &= kRegionLow;
-  const std::uint32_t choice = choice_of_[variable];
+  const std::uint32_t choice = choice_of(variable);
   if (choice == kNoChoice || holder_[choice] == kNobody || holder_[choice] == variable) return values;
   return static_cast<std::uint8_t>(values & ~(variable < cells ? kHigh : kSeen));
 }
@@ -89,7 +95,7 @@ bool Satisfier::narrow(std::uint32_t variable, std::uint8_t wanted) {
     if (variable >= timer_of(CondId{0})) note_elapsed(variable);
     if (confusions_ != nullptr && !may_be_sure(variable)) return false;
   }
-  const std::uint32_t choice = choice_of_[variable];
+  const std::uint32_t choice = choice_of(variable);
   const std::uint8_t chosen = variable < program_.cells.size() ? kHigh : kSeen;
   if (choice != kNoChoice && (left & ~chosen) == 0 && holder_[choice] == kNobody) {
     trail_.push_back({static_cast<std::uint32_t>(values_.size() + choice), kNobody});
@@ -280,7 +286,7 @@ void Satisfier::undo(std::size_t trail, std::size_t open) {
     }
   }
   while (!sure_.empty() && sure_.back().trail > trail_.size()) sure_.pop_back();
-  for (; !timed_.empty() && timed_.back().trail > trail_.size(); timed_.pop_back()) elapsed_[program::index(timed_.back().condition)] = timed_.back().before;
+  for (; !timed_.empty() && timed_.back().trail > trail_.size(); timed_.pop_back()) elapsed_[timed_.back().condition] = timed_.back().before;
   open_.resize(open);
   closed_.resize(open);
 }

@@ -14,7 +14,9 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "compiler/analysis/confusion.h"
@@ -56,6 +58,10 @@ class Satisfier {
  public:
   /// All must outlive it. Without `confusions` all facts are as if the host gave them.
   Satisfier(const program::Program& program, const Domains& domains, Confusions* confusions = nullptr);
+  /// Like another, but for other domains.
+  Satisfier(const Satisfier& other, const Domains& domains);
+  Satisfier(const Satisfier&) = delete;
+  Satisfier& operator=(const Satisfier&) = delete;
 
   /// Whether all goals can hold at one moment while `level` is evaluated (on the control level no strategy is high).
   [[nodiscard]] Answer together(std::span<const Goal> goals, std::uint32_t level);
@@ -67,12 +73,16 @@ class Satisfier {
   [[nodiscard]] bool is_moment(std::span<const Restriction> demanded) const;
   /// Whether the condition is a `for` over something that never holds on two ticks in a row, so that the `for` never holds.
   [[nodiscard]] bool is_timed_event(program::CondId condition) const;
-  /// Steps taken so far by all questions together; once this exceeds `kTotalSteps` every answer is kUnknown.
+  /// By group: see `exclusive_at_all_times`.
+  [[nodiscard]] const std::vector<bool>& exclusive() const { return exclusive_choices_->exclusive; }
+  /// Steps taken by all questions since it was made or `renew` was called; once this exceeds `kTotalSteps` every answer is kUnknown.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  void renew() { steps_ = 0; }
   static constexpr std::uint8_t kTimerTrue = 1, kTimerFalse = 2;   ///< the values of the variable of a timer
   static constexpr std::uint64_t kTotalSteps = 40'000'000;
 
  private:
+  static constexpr std::uint32_t kNoChoice = 0xFFFFFFFFu;
   enum class Truth : std::uint8_t { kFalse, kTrue, kOpen };
   struct Change {
     std::uint32_t place;
@@ -101,6 +111,16 @@ class Satisfier {
     std::size_t trail;                    // how long that was
   };
 
+  /// What at most one of several variables can be at a time.
+  struct Choices {
+    std::vector<bool> exclusive;            // by group
+    std::vector<std::uint32_t> of;          // by cell, then by sighting; kNoChoice
+    std::uint32_t count = 0;
+  };
+
+  Satisfier(const program::Program& program, const Domains& domains, std::shared_ptr<const Choices> choices, Confusions* confusions);
+  [[nodiscard]] static Choices find_choices(const program::Program& program);
+  [[nodiscard]] std::uint32_t choice_of(std::uint32_t variable) const { return variable < exclusive_choices_->of.size() ? exclusive_choices_->of[variable] : kNoChoice; }
   void find_timed_events();
   [[nodiscard]] std::uint8_t left_by_others(std::uint32_t timer) const;
   void note_elapsed(std::uint32_t timer);
@@ -142,11 +162,11 @@ class Satisfier {
   const Domains& domains_;
   Confusions* confusions_;
   std::vector<std::uint8_t> values_;      // by variable: what it may still be
-  std::vector<std::uint32_t> choice_of_;  // by variable: the exclusive choice it belongs to, or kNoChoice
+  std::shared_ptr<const Choices> exclusive_choices_;
   std::vector<std::uint32_t> holder_;     // by choice: the variable that has it, or kNobody
   std::vector<Change> trail_;             // to undo: places of values, then of holders, then of `closed_`
   std::vector<Sure> sure_;                // perceived facts that must be high, or seen
-  std::vector<Elapsed> elapsed_;          // by condition
+  std::unordered_map<program::CondId, Elapsed> elapsed_;   // by condition under a timer
   std::vector<Timed> timed_;              // timers that are certain, to undo
   std::vector<Goal> open_;                // goals of which one part must hold (or fail)
   std::vector<bool> closed_;              // by open goal: met, or a part of it was taken

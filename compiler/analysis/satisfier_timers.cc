@@ -50,7 +50,8 @@ bool Satisfier::is_timed_event(CondId condition) const { return std::binary_sear
 /// What the other timers over the same condition leave open of one: it has run out if a longer one has, and has not if a shorter one has not.
 std::uint8_t Satisfier::left_by_others(std::uint32_t timer) const {
   const Cond& cond = program_.conds[timer - timer_of(CondId{0})];
-  const Elapsed elapsed = elapsed_[program::index(cond.children.front())];
+  const auto known = elapsed_.find(cond.children.front());
+  const Elapsed elapsed = known != elapsed_.end() ? known->second : Elapsed();
   std::uint8_t left = kTimerTrue | kTimerFalse;
   if (cond.duration_us <= elapsed.at_least) left &= kTimerTrue;
   if (cond.duration_us >= elapsed.below) left &= kTimerFalse;
@@ -60,7 +61,7 @@ std::uint8_t Satisfier::left_by_others(std::uint32_t timer) const {
 /// A timer is now certain.
 void Satisfier::note_elapsed(std::uint32_t timer) {
   const Cond& cond = program_.conds[timer - timer_of(CondId{0})];
-  Elapsed& elapsed = elapsed_[program::index(cond.children.front())];
+  Elapsed& elapsed = elapsed_[cond.children.front()];
   timed_.push_back({cond.children.front(), elapsed, trail_.size()});
   const std::int64_t duration = cond.duration_us;
   if (values_[timer] == kTimerTrue) elapsed.at_least = std::max(elapsed.at_least, duration);

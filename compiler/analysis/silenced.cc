@@ -1,6 +1,5 @@
 // Reports rules that lose what they wait for to a `reset` of their own level or one above, and resets that last.
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -8,6 +7,7 @@
 
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
+#include "compiler/program/conditions.h"
 #include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
@@ -30,15 +30,16 @@ using Alike = std::vector<RuleId>;   // rules of one level with the same effects
 class SilencedQuestions {
  public:
   explicit SilencedQuestions(const Subject& subject)
-      : subject_(subject), program_(subject.program), satisfier_(subject.program, subject.domains, subject.confusions.get()) {}
+      : subject_(subject), program_(subject.program), satisfier_(subject.satisfier()) {}
 
   void find_losses() {
     find_resets();
     if (resets_.empty()) return;
+    const std::vector<bool> may_lose = asking_for([this](std::size_t fact) { return resets_.contains(fact); });
     ByFamily<Loss> found(subject_);
     for (std::uint32_t i = 0; i < program_.rules.size() && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {
       const Rule& rule = program_.rules[i];
-      if (Subject::generated(rule) || rule.level < highest_ || (rule.reset && rule.level == highest_)) continue;
+      if (!may_lose[program::index(rule.condition)] || Subject::generated(rule) || rule.level < highest_ || (rule.reset && rule.level == highest_)) continue;
       if (const auto loss = loss_of(rule)) found.add(RuleId{i}, *loss);
     }
     found.for_each([&](RuleId id, const Loss& loss, std::uint32_t count) {
@@ -53,16 +54,19 @@ class SilencedQuestions {
   /// Reports `while` rules that reset on a level where another rule waits for the same fact, or writes what is kept: for as long as such a rule fires
   /// the other one does not. What the `reset` also takes a satellite from is left to the message about that.
   void find_lasting() {
-    ByFamily<RuleId> found(subject_);
-    bool known = false;
+    std::vector<std::pair<RuleId, std::vector<std::size_t>>> resets;   // and the facts that they await
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
       const Rule& rule = program_.rules[i];
       if (!rule.reset || rule.mode != program::Mode::kWhile || Subject::generated(rule)) continue;
       const Demands demands = satisfier_.demands(rule.condition, rule.level);
       if (undone(subject_, demands, rule)) continue;   // it resets once
-      if (!known) find_waiting();
-      known = true;
-      if (const RuleId other = silenced_by(rule, awaited(demands)); other != RuleId::kNone) found.add(RuleId{i}, other);
+      for (const std::size_t fact : resets.emplace_back(RuleId{i}, awaited(demands)).second) waiting_[fact];
+    }
+    if (resets.empty()) return;
+    find_waiting();
+    ByFamily<RuleId> found(subject_);
+    for (const auto& [reset, facts] : resets) {
+      if (const RuleId other = silenced_by(program_[reset], facts); other != RuleId::kNone) found.add(reset, other);
     }
     found.for_each([&](RuleId id, RuleId other, std::uint32_t count) {
       const Rule& rule = program_[id];
@@ -73,25 +77,34 @@ class SilencedQuestions {
   }
 
  private:
-  using Place = std::pair<std::uint32_t, std::size_t>;   // a level, and a fact or kKept
-  static constexpr std::size_t kKept = static_cast<std::size_t>(-1);
+  static constexpr std::size_t kKept = static_cast<std::size_t>(-1);   // in place of a fact
 
+  /// By condition: whether it asks for such a fact.
+  template <class Asked>
+  [[nodiscard]] std::vector<bool> asking_for(Asked asked) const {
+    return program::marked(program_, [asked](const program::Cond& cond) { return !program::has_parts(cond.op) && asked(program::index(cond.cell)); });
+  }
+
+  /// Completes `waiting_`, which has the facts in question.
   void find_waiting() {
+    const std::vector<bool> may_wait = asking_for([this](std::size_t fact) { return waiting_.contains(fact); });
+    std::vector<RuleId>& keeping = waiting_[kKept];
     for (std::uint32_t i = 0; i < program_.rules.size() && satisfier_.steps() < Satisfier::kTotalSteps; ++i) {
       const Rule& rule = program_.rules[i];
       if (rule.reset || Subject::generated(rule)) continue;
-      for (const std::size_t fact : awaited(satisfier_.demands(rule.condition, rule.level))) waiting_[{rule.level, fact}].push_back(RuleId{i});
-      const bool keeps = std::ranges::any_of(rule.writes, [this](const program::Write& write) { return program_[write.cell].keep; });
-      if (keeps) waiting_[{rule.level, kKept}].push_back(RuleId{i});
+      if (may_wait[program::index(rule.condition)]) {
+        for (const std::size_t fact : awaited(satisfier_.demands(rule.condition, rule.level))) {
+          if (const auto waiting = waiting_.find(fact); waiting != waiting_.end()) waiting->second.push_back(RuleId{i});
+        }
+      }
+      if (std::ranges::any_of(rule.writes, [this](const program::Write& write) { return program_[write.cell].keep; })) keeping.push_back(RuleId{i});
     }
   }
 
   [[nodiscard]] RuleId silenced_by(const Rule& reset, std::vector<std::size_t> facts) {
     facts.push_back(kKept);
     for (const std::size_t fact : facts) {
-      const auto waiting = waiting_.find({reset.level, fact});
-      if (waiting == waiting_.end()) continue;
-      for (const RuleId id : waiting->second) {
+      for (const RuleId id : of_level(program_, waiting_.at(fact), reset.level)) {
         if (satisfier_.steps() >= Satisfier::kTotalSteps) return RuleId::kNone;
         if (fires_with(program_[id], reset)) return id;
       }
@@ -157,8 +170,8 @@ class SilencedQuestions {
 
   const Subject& subject_;
   const Program& program_;
-  Satisfier satisfier_;
-  std::map<Place, std::vector<RuleId>> waiting_;   // the rules that wait for the fact, or write what is kept
+  Satisfier& satisfier_;
+  std::unordered_map<std::size_t, std::vector<RuleId>> waiting_;   // by fact: the rules that wait for it, ascending; kKept: those that write what is kept
   std::uint32_t highest_ = UINT32_MAX;     // level of rules that reset
   std::unordered_map<std::size_t, std::vector<Alike>> resets_;   // by fact: the rules that reset and wait for it
 };

@@ -124,15 +124,14 @@ void find_clans(Subject& subject) {
 
 }  // namespace
 
-Subject study(const model::Model& model, const Program& program, diagnostics::Diagnostics& diagnostics) {
-  Subject subject{model, program, diagnostics, find_domains(program), written_domains(program), {}, {}, program::group_of_cells(program), {}, {},
-                  {},    {},      {}, {}, std::make_unique<Confusions>(program)};
-  subject.reported.assign(program.cells.size(), false);
-  find_families(subject);
-  find_readers(subject);
-  find_writers(subject);
-  find_clans(subject);
-  return subject;
+Subject::Subject(const model::Model& studied, const Program& lowered, diagnostics::Diagnostics& messages)
+    : model(studied), program(lowered), diagnostics(messages), domains(find_domains(program)), written(written_domains(program)), widest(widest_domains(program)),
+      writers(program), group_of(program::group_of_cells(program)), reported(program.cells.size(), false), confusions(std::make_unique<Confusions>(program)),
+      narrow_(program, domains, confusions.get()), wide_(narrow_, widest) {
+  find_families(*this);
+  find_readers(*this);
+  find_writers(*this);
+  find_clans(*this);
 }
 
 std::string more(std::uint32_t count, const char* of_what) {

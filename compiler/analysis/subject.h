@@ -10,6 +10,8 @@
 #include "compiler/analysis/analysis.h"
 #include "compiler/analysis/confusion.h"
 #include "compiler/analysis/domains.h"
+#include "compiler/analysis/satisfier.h"
+#include "compiler/analysis/writers.h"
 #include "compiler/diagnostics/diagnostics.h"
 #include "compiler/model/model.h"
 #include "compiler/program/program.h"
@@ -26,6 +28,10 @@ struct Clan {
 };
 
 struct Subject {
+  Subject(const model::Model& studied, const program::Program& lowered, diagnostics::Diagnostics& messages);
+  Subject(const Subject&) = delete;      // parts refer to each other
+  Subject& operator=(const Subject&) = delete;
+
   static constexpr std::uint8_t kAsksSight = 1, kAsksHigh = 2;
 
   const model::Model& model;
@@ -34,6 +40,8 @@ struct Subject {
 
   Domains domains;
   Domains written;                       ///< what cells could be if every rule could fire
+  Domains widest;                        ///< ... or if rules wrote whatever can be written
+  Writers writers;
   std::vector<std::uint32_t> family;     ///< by rule: the rule as written that it is an instance of
   std::vector<std::uint32_t> instances;  ///< by family: how many
   std::vector<std::uint32_t> group_of;   ///< by cell: its exclusive group
@@ -44,6 +52,13 @@ struct Subject {
   std::vector<program::RuleId> raiser;  ///< by cell: a rule that writes a positive value to it
   std::vector<bool> reported;           ///< by cell: a message has said that it never changes, or is never seen
   std::unique_ptr<Confusions> confusions;
+
+  /// The one that knows `domains`, and the one that knows `widest`, with a new budget: for one list of questions after another.
+  [[nodiscard]] Satisfier& satisfier() const { return narrow_.renew(), narrow_; }
+  [[nodiscard]] Satisfier& wide_satisfier() const { return wide_.renew(), wide_; }
+
+  /// Whether one member of the group at most is above 0 at any time.
+  [[nodiscard]] bool exclusive(std::uint32_t group) const { return narrow_.exclusive()[group]; }
 
   /// Whether a rule asks if the fact is seen, newly seen or lost; whether a rule asks if it is high.
   [[nodiscard]] bool asks_sight(program::CellId fact) const { return (asked[program::index(fact)] & kAsksSight) != 0; }
@@ -59,10 +74,10 @@ struct Subject {
   [[nodiscard]] bool in_library(source::Span span) const {
     return span.known() && diagnostics.sources().standard(span.file);
   }
-};
 
-[[nodiscard]] Subject study(const model::Model& model, const program::Program& program,
-                            diagnostics::Diagnostics& diagnostics);
+ private:
+  mutable Satisfier narrow_, wide_;   // answers do not depend on what was asked before
+};
 
 /// Findings about rules, one for each rule as written: the first instance speaks for all.
 template <class Finding>
@@ -102,7 +117,6 @@ struct Demands;
 /// A cell that must be as `demands` says and that `rule` makes otherwise, if there is one. (In effects.cc.)
 [[nodiscard]] std::optional<program::CellId> undone(const Subject& subject, const Demands& demands, const program::Rule& rule);
 
-class Satisfier;
 /// Adds a note to a message about two rules that disagree if they can meet only at an event, or at two at once. (In event_notes.cc.)
 void note_events(const Subject& subject, Satisfier& satisfier, const program::Rule& a, const program::Rule& b, diagnostics::Builder& message);
 

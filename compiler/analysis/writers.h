@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/program/program.h"
+#include "compiler/source/texts.h"
 
 namespace kb::analysis {
 
@@ -21,12 +22,13 @@ struct Writers {
     }
   }
 
-  std::vector<std::vector<program::RuleId>> by_name, by_clear;   ///< by cell; by exclusive group
+  std::vector<source::Few<program::RuleId, 4>> by_name;   ///< by cell
+  std::vector<std::vector<program::RuleId>> by_clear;     ///< by exclusive group
   std::vector<program::RuleId> by_reset;
 };
 
 /// Those of such a list that are of one level.
-[[nodiscard]] inline std::span<const program::RuleId> of_level(const program::Program& program, const std::vector<program::RuleId>& rules, std::uint32_t level) {
+[[nodiscard]] inline std::span<const program::RuleId> of_level(const program::Program& program, std::span<const program::RuleId> rules, std::uint32_t level) {
   const auto first_from = [&](std::uint32_t from) {
     return std::lower_bound(rules.begin(), rules.end(), from, [&](program::RuleId id, std::uint32_t limit) { return program[id].level < limit; });
   };

@@ -22,10 +22,19 @@ bool ends(Stage done, const Options& options, const diagnostics::Diagnostics& di
 /// All that the analysis reports are warnings.
 bool analyses(const Options& options) { return options.analyse && !options.warnings.none; }
 
-/// Makes the tables of a large program while it is analysed; both only read it. Those of a small program are made when asked for.
-std::future<tables::Tables> begin_tables(const program::Program& program, const Options& options) {
-  const bool beside = analyses(options) && options.until == Stage::kTables && program.rules.size() >= tables::kWorthAThread;
-  return std::async(beside ? std::launch::async : std::launch::deferred, [&program] { return tables::build(program); });
+struct Made {
+  tables::Tables tables;
+  std::string image;
+};
+
+/// Makes tables and image of a large program while it is analysed; all only read it. Those of a small program are made when asked for.
+std::future<Made> begin_tables(const program::Program& program, const Options& options) {
+  const bool beside = analyses(options) && options.until >= Stage::kTables && program.rules.size() >= tables::kWorthAThread;
+  return std::async(beside ? std::launch::async : std::launch::deferred, [&program, image = options.until == Stage::kImage] {
+    Made made{tables::build(program), {}};
+    if (image) made.image = tables::write_image(made.tables, program);
+    return made;
+  });
 }
 
 void run(std::string_view path, const source::FileSystem& files, const Options& options, Compilation& to,
@@ -44,11 +53,13 @@ void run(std::string_view path, const source::FileSystem& files, const Options& 
   require_sound(to.program);
   if (ends(Stage::kProgram, options, diagnostics)) return;
 
-  std::future<tables::Tables> tables = begin_tables(to.program, options);
+  std::future<Made> made = begin_tables(to.program, options);
   if (analyses(options)) analysis::diagnose(to.model, to.program, options.known, diagnostics);
   if (ends(Stage::kAnalysis, options, diagnostics)) return;
   if (!options.keep_model) to.model = {};
-  to.tables = tables.get();
+  Made forms = made.get();
+  to.tables = std::move(forms.tables);
+  to.image_bytes = std::move(forms.image);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The compiler as a table of contents: bytes -> trees -> model -> program -> analysis -> tables.
+// The compiler as a table of contents: bytes -> trees -> model -> program -> analysis -> tables -> image.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace kb::driver {
 
 /// How far to go. Each stage needs those before it; a stage with errors is the last. (A warning that -Werror
 /// made an error fails the compilation but does not stop it: the later stages still run.)
-enum class Stage : std::uint8_t { kTrees, kModel, kProgram, kAnalysis, kTables };
+enum class Stage : std::uint8_t { kTrees, kModel, kProgram, kAnalysis, kTables, kImage };
 
 struct Options {
   std::string library;                      ///< folder that holds `std/`
@@ -37,6 +37,7 @@ struct Compilation {
   model::Model model;
   program::Program program;
   tables::Tables tables;
+  std::string image_bytes;                  ///< empty if it would be too large
   std::unique_ptr<tables::LoadedImage> image;   ///< the image that program and tables were recalled from, if any
   std::size_t errors = 0, warnings = 0;
 

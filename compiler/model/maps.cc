@@ -341,9 +341,9 @@ void choose_exits(Draft& draft) {
 void declare_map(Draft& draft, const syntax::Map& map) { MapReader(draft, map).run(); }
 
 void forget_roads(Draft& draft) {
-  draft.roads = {};
-  draft.landmarks = {};
-  draft.legs_from = {};
+  source::release(draft.roads);
+  source::release(draft.landmarks);
+  source::release(draft.legs_from);
   draft.graph.reset();
 }
 

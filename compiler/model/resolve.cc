@@ -51,16 +51,18 @@ void forget_details(Model& model) {
   for (Relation& relation : model.relations) renumber(relation.rows);
   for (Map& map : model.maps) {
     renumber(map.landmarks);
-    map.roads = {};
-    map.bends = {};
+    source::release(map.roads);
+    source::release(map.bends);
   }
   model.rows = std::move(rows);
-  model.values = {};
-  model.tables = {};
+  source::release(model.values);
+  source::release(model.points);
+  source::release(model.kept);
+  source::release(model.tables);
 }
 
 void forget_rules(Model& model) {
-  model.conds = {};
+  source::release(model.conds);
   std::erase_if(model.rules, [](const Rule& rule) { return rule.effects.size() <= 1; });
   model.rules.shrink_to_fit();
 }

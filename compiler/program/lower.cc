@@ -120,14 +120,10 @@ class Lowering {
     for (std::uint32_t i = 0; i < model_.rules.size(); ++i) {
       if (model_[model_.rules[i].condition].loose) find_loose_timers(i, model_.rules[i].condition);
     }
-    cond_of_ = {};
+    source::release(cond_of_);
     place_of_.resize(model_.templates.size(), kNoPlace);
     program_.rules.reserve(model_.rules.size() + model_.priority.size());
-    std::vector<std::uint32_t> order(model_.rules.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto level_of = [&](std::uint32_t rule) { return model_[model_.rules[rule].tmpl].level; };
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return level_of(a) < level_of(b); });
-    for (const std::uint32_t i : order) {
+    for (const std::uint32_t i : rules_by_level()) {
       const RuleId made{static_cast<std::uint32_t>(program_.rules.size())};
       program_.rules.push_back(lower_rule(model_.rules[i], conditions[i], group_of));
       for (auto loose = std::ranges::lower_bound(loose_, RuleId{i}, {}, &LooseTimer::rule); loose != loose_.end() && loose->rule == RuleId{i}; ++loose) {
@@ -135,6 +131,16 @@ class Lowering {
         program_.loose_timers.back().rule = made;
       }
     }
+  }
+
+  /// The rules as written, by level; those of a level in the order of the text.
+  [[nodiscard]] std::vector<std::uint32_t> rules_by_level() const {
+    std::vector<std::vector<std::uint32_t>> of_level(model_.levels.size());
+    for (std::uint32_t i = 0; i < model_.rules.size(); ++i) of_level[model_[model_.rules[i].tmpl].level].push_back(i);
+    std::vector<std::uint32_t> order;
+    order.reserve(model_.rules.size());
+    for (const auto& rules : of_level) order.insert(order.end(), rules.begin(), rules.end());
+    return order;
   }
 
   void find_loose_timers(std::uint32_t rule, model::CondId id) {

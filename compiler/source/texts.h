@@ -42,6 +42,12 @@ class Texts {
 template <class T, std::size_t N>
 using Few = absl::InlinedVector<T, N>;
 
+/// Empties the list and gives its memory back, which `items = {}` would keep.
+template <class T>
+void release(std::vector<T>& items) {
+  std::vector<T>().swap(items);
+}
+
 /// Sorts the items, and keeps one of those that are equal.
 template <class T>
 void sort_unique(std::vector<T>& items) {

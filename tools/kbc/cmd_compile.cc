@@ -1,6 +1,4 @@
 // kbc compile: a knowledge base as C++ (or JSON, or an image).
-#include <malloc.h>
-
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -22,6 +20,10 @@
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
 #include "tools/kbc/trace/stream.h"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace kb::cli {
 namespace {
@@ -171,13 +173,15 @@ std::string roads_lacking(const model::Model& model) {
   return "route that leads along a road of a map";
 }
 
-Files emit_files(const CompileOptions& options, const driver::Compilation& compiled, const std::vector<std::string>& names,
+/// Nothing if an error was reported. An image is taken from `compiled`.
+Files emit_files(const CompileOptions& options, driver::Compilation& compiled, const std::vector<std::string>& names,
                  const std::string& name_space, Session& session) {
   if (options.form == "json") return {{names[0], program::print_json(compiled.program)}};
   if (options.form == "image") {
     diagnose_left_out(compiled, session);
+    if (session.refuse_image(compiled.image_bytes)) return {};
     Files files;
-    files.push_back({names[0], session.make_image(compiled), Session::require_sound_image});
+    files.push_back({names[0], std::move(compiled.image_bytes), Session::require_sound_image});
     return files;   // not in an initializer list, which would copy the image
   }
   const auto file_name = [&names](std::size_t i) { return std::filesystem::path(names[i]).filename().string(); };
@@ -215,9 +219,11 @@ bool refuse_form(const CompileOptions& options, const driver::Compilation& compi
 /// Keeps memory that a phase frees for the next phase. Returning it to the kernel and asking for it again would take a second or two for
 /// a million roads. Large blocks are returned: the gaps that they leave would be too much to keep.
 void keep_memory() {
+#ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 64 << 20);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
   mallopt(M_ARENA_MAX, 1);   // one heap for all threads
+#endif
 }
 
 /// Warns if files beside the knowledge base would include another header than the one that is written elsewhere.
@@ -235,7 +241,7 @@ int compile(const CompileOptions& options, Session& session) {
   const std::string name_space = options.form == "cpp" ? choose_namespace(options, session) : "-";
   const std::vector<std::string> names = output_names(options);
   if (name_space.empty() || !can_name_files(options, names, session)) return kErrors;
-  auto compiled = session.compile(options.file, driver::Stage::kTables, true, options.map);
+  auto compiled = session.compile(options.file, options.form == "image" ? driver::Stage::kImage : driver::Stage::kTables, true, options.map);
   if (!compiled->ok()) return kErrors;
   auto messages = session.diagnostics(compiled->sources);
   sim::check_controls(compiled->program, messages);

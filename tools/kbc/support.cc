@@ -155,8 +155,12 @@ std::unique_ptr<driver::Compilation> Session::load(std::string_view path, driver
 
 std::string Session::make_image(const driver::Compilation& compiled) {
   std::string image = tables::write_image(compiled.tables, compiled.program);
+  return refuse_image(image) ? std::string() : image;
+}
+
+bool Session::refuse_image(std::string_view image) {
   if (image.empty()) report(Kind::kImageTooLarge, {std::to_string(mts::kMaxImageBytes >> 20)});
-  return image;
+  return image.empty();
 }
 
 void Session::require_sound_image(std::string_view image) {
@@ -319,11 +323,14 @@ bool Session::write_all_or_none(const std::vector<OutputFile>& files) {
     if (!taken(i, staged[i].stage())) return false;
     if (verified.valid()) verified.get();
   }
+  bool printed = false;
   for (const OutputFile& file : files) {
-    if (file.path == "-") print(file.bytes);
+    if (file.path != "-") continue;
+    print(file.bytes);
+    printed = true;
   }
   flush_output();
-  if (output_error_ != 0 && output_error_ != EPIPE) return false;   // reported by `finish`
+  if (printed && output_error_ != 0 && output_error_ != EPIPE) return false;   // reported by `finish`
   const auto refused = trace::OutputFile::commit_all(staged);
   return !refused || taken(*refused, false);
 }

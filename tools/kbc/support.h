@@ -78,6 +78,8 @@ class Session {
   [[nodiscard]] std::unique_ptr<driver::Compilation> load(std::string_view path, driver::Stage until);
   /// The image of what was compiled, not verified; empty if it is too large (reported).
   [[nodiscard]] std::string make_image(const driver::Compilation& compiled);
+  /// True (reported) if an image was too large to be written, and so is empty.
+  [[nodiscard]] bool refuse_image(std::string_view image);
   /// Throws std::logic_error if an image made here would fail the verification that every reader makes, which is a bug of kbc.
   static void require_sound_image(std::string_view image);
   /// False (reported) if `path` is an image, for commands that need the source.
