@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -287,11 +288,26 @@ std::string FuzzyRegions::text(const Region& region) const {
   return out.empty() ? "the inputs are what they may" : out;
 }
 
+namespace {
+
+/// A number within the stretch, about its middle, of as few digits as that takes.
+double round_middle(const Stretch& stretch) {
+  for (int digits = 2; digits < 17; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", stretch.middle(), digits);
+    double rounded = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), rounded);
+    if (stretch.low < rounded && rounded < stretch.high) return rounded;
+  }
+  return stretch.middle();
+}
+
+}  // namespace
+
 std::string FuzzyRegions::witness(const Region& region) const {
   std::string out;
   for (std::uint32_t slot = 0; slot < c_.slots; ++slot) {
     if (region.pieces[slot].empty()) continue;
-    const double x = pieces_of(slot)[region.pieces[slot].front()].at.front().middle();
+    const double x = round_middle(pieces_of(slot)[region.pieces[slot].front()].at.front());
     fmt::format_to(std::back_inserter(out), "{}{} = {}{}", out.empty() ? "" : ", ", slot_name(c_, slot), x, unit_text(c_.inputs[input_of_slot(c_, slot)]));
   }
   return out;

@@ -162,6 +162,11 @@ class Loader {
   /// A file that exists and that the user may have meant by `path`, as the user would write it. Tries up to a thousand names.
   [[nodiscard]] std::optional<std::string> meant(const std::string& path, std::string_view written) const {
     if (diagnostics_.full()) return std::nullopt;
+    if (written.find('\\') != written.npos) {   // as on Windows
+      std::string slashed(written);
+      std::replace(slashed.begin(), slashed.end(), '\\', '/');
+      if (files_.read(joined(stack_.back().folder, slashed)).bytes) return slashed;
+    }
     const auto better = near_file(path, files_);
     if (better && !is_open(files_.canonical(*better))) return as_written(*better, path, written);   // a file cannot import itself
     if (path.ends_with("/kb.kb") && files_.read(path.substr(0, path.size() - 6) + ".kb").bytes) {

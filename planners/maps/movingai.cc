@@ -208,7 +208,8 @@ std::optional<std::vector<Scenario>> read_scenarios(source::FileId file, const G
     scenario->line = lines.number();
     scenarios.push_back(*scenario);
   }
-  if (!good) return std::nullopt;
+  if (good && scenarios.empty()) diagnostics.report(Kind::kScenarioNone, lines.end());
+  if (!good || scenarios.empty()) return std::nullopt;
   return scenarios;
 }
 

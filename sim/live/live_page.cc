@@ -44,7 +44,7 @@ bool names_this_machine(std::string_view host) {
 /// Ends the open connections to `port` of this machine. The library waits for the end of each, and has no call that ends one.
 void end_connections(std::uint16_t port) {
   std::error_code unknown;
-  for (std::filesystem::directory_iterator at("/proc/self/fd", unknown), end; !unknown && at != end; at.increment(unknown)) {
+  for (std::filesystem::directory_iterator at("/dev/fd", unknown), end; !unknown && at != end; at.increment(unknown)) {
     const std::string name = at->path().filename().string();
     int socket = -1;
     std::from_chars(name.data(), name.data() + name.size(), socket);

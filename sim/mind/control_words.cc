@@ -87,6 +87,17 @@ bool drives_elsewhere(const Strategy& strategy, const Labyrinth& labyrinth) {
   return std::any_of(labyrinth.roads.begin(), labyrinth.roads.end(), [&](const Road& road) { return road.method == strategy.method && road.kind != Picture::Kind::kOpen; });
 }
 
+/// Whether a strategy is to cross halls: a `Move` whose method roads across halls have.
+bool drives_halls(const Strategy& strategy, const Labyrinth& labyrinth) {
+  return strategy.doing == Doing::kMove &&
+         std::any_of(labyrinth.roads.begin(), labyrinth.roads.end(), [&](const Road& road) { return road.method == strategy.method && road.kind == Picture::Kind::kOpen; });
+}
+
+/// What a controller goes along, which no hall has; "" if it needs no such thing.
+std::string_view track_of(mts::ControllerId id) {
+  return id == mts::ControllerId::kFollowLine ? "a line" : id == mts::ControllerId::kKeepWall ? "walls" : "";
+}
+
 }  // namespace
 
 std::string range_text(const mts::Parameter& parameter, const mts::Body& body) {
@@ -132,9 +143,13 @@ std::map<std::string_view, std::vector<std::string_view>> controller_arguments()
 void check_halls(const Knowledge& knowledge, const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // many strategies may share one line
   for (const Strategy& strategy : knowledge.strategies) {
-    if (strategy.control == nullptr || !crosses_halls(strategy.controller) || !drives_elsewhere(strategy, labyrinth)) continue;
+    if (strategy.control == nullptr) continue;
+    const std::string_view track = track_of(strategy.controller);
+    const bool no_hall = crosses_halls(strategy.controller) && drives_elsewhere(strategy, labyrinth), no_track = !track.empty() && drives_halls(strategy, labyrinth);
     const source::Span at = strategy.control->controller_span;
-    if (told.insert({static_cast<std::uint32_t>(at.file), at.begin}).second) diagnostics.report(Kind::kSimNoHall, at, {strategy.control->controller, strategy.name});
+    if ((!no_hall && !no_track) || !told.insert({static_cast<std::uint32_t>(at.file), at.begin}).second) continue;
+    if (no_hall) diagnostics.report(Kind::kSimNoHall, at, {strategy.control->controller, strategy.name});
+    else diagnostics.report(Kind::kSimNoTrack, at, {strategy.control->controller, track, strategy.name});
   }
 }
 

@@ -30,7 +30,8 @@ namespace kb::sim {
 /// The arguments of the controllers that Waymark brings, by controller.
 [[nodiscard]] std::map<std::string_view, std::vector<std::string_view>> controller_arguments();
 
-/// Warns (KB1396) of controllers for halls that drive something else: the robot would stand without any message.
+/// Warns of controllers for halls that drive something else (KB1396), and of others that drive in halls (KB1511): the robot would stand
+/// without any message.
 void check_halls(const Knowledge& knowledge, const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
 
 /// Warns (KB1364 to KB1366) of what `kbc sim` would refuse and what is plainly a mistake in a user's own program too: a name one letter

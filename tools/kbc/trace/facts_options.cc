@@ -93,9 +93,9 @@ std::optional<std::uint32_t> parse_duration(std::string_view text) {
   if (error != std::errc()) return std::nullopt;
   const std::string_view unit = source::trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
   const double scale = unit == "us" ? 1.0 : unit == "ms" ? 1e3 : unit == "s" ? 1e6 : unit == "min" ? 60e6 : unit == "h" ? 3600e6 : 0.0;
-  const double us = std::round(number * scale);
-  if (!(us >= 1.0 && us <= static_cast<double>(kMaxStepUs))) return std::nullopt;
-  return static_cast<std::uint32_t>(us);
+  const double us = number * scale;
+  if (!(us >= 0.999 && us <= static_cast<double>(kMaxStepUs))) return std::nullopt;   // 1e-6 s need not be all of 1 us
+  return static_cast<std::uint32_t>(std::round(us));
 }
 
 std::vector<OptionItem> read_option_comment(std::string_view line, FactsOptions& options) {

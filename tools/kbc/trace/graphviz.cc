@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <memory>
 
+extern char** environ;
+
 namespace kb::trace {
 namespace {
 
@@ -46,7 +48,7 @@ Drawing draw_svg(std::string_view graph) {
   std::string program = "dot", format = "-Tsvg";
   std::array<char*, 3> arguments{program.data(), format.data(), nullptr};
   ::pid_t child = 0;
-  const int spawned = ::posix_spawnp(&child, "dot", &actions, nullptr, arguments.data(), environ);
+  const int spawned = ::posix_spawnp(&child, "dot", &actions, nullptr, arguments.data(), ::environ);
   ::posix_spawn_file_actions_destroy(&actions);
   if (spawned == ENOENT) return {.outcome = Drawing::Outcome::kNotInstalled, .svg = {}, .error = {}};
   if (spawned != 0) return {.outcome = Drawing::Outcome::kFailed, .svg = {}, .error = "it cannot be started"};
