@@ -201,7 +201,7 @@ template <class Falling, class Rising>
 /// square_root(x) by the processor's own instruction where it is known to have one: the same bits, sooner.
 [[nodiscard]] constexpr float quick_root(float x) noexcept {
 #if defined(__SSE__)
-  if (!std::is_constant_evaluated()) {
+  if (x > 0.0f && !std::is_constant_evaluated()) {   // of all else it is 0
 #if __has_builtin(__builtin_elementwise_sqrt)   // of later clangs, which no longer have the other
     return __builtin_elementwise_sqrt(x);
 #else
