@@ -290,13 +290,14 @@ std::string FuzzyRegions::text(const Region& region) const {
 
 namespace {
 
-/// A number within the stretch, about its middle, of as few digits as that takes.
-double round_middle(const Stretch& stretch) {
+/// A number within the stretch, about its middle, of as few digits as that takes. The terms must be as they are in all of the piece: smooth
+/// ones have no corners, so a stretch of theirs is known at its middle only.
+double round_middle(const Stretch& stretch, const fuzzy::Input& input, const Piece& piece) {
   for (int digits = 2; digits < 17; ++digits) {
     const std::string text = fmt::format("{:.{}g}", stretch.middle(), digits);
     double rounded = 0.0;
     std::from_chars(text.data(), text.data() + text.size(), rounded);
-    if (stretch.low < rounded && rounded < stretch.high) return rounded;
+    if (stretch.low < rounded && rounded < stretch.high && states_at(input, rounded) == piece.states) return rounded;
   }
   return stretch.middle();
 }
@@ -307,8 +308,9 @@ std::string FuzzyRegions::witness(const Region& region) const {
   std::string out;
   for (std::uint32_t slot = 0; slot < c_.slots; ++slot) {
     if (region.pieces[slot].empty()) continue;
-    const double x = round_middle(pieces_of(slot)[region.pieces[slot].front()].at.front());
-    fmt::format_to(std::back_inserter(out), "{}{} = {}{}", out.empty() ? "" : ", ", slot_name(c_, slot), x, unit_text(c_.inputs[input_of_slot(c_, slot)]));
+    const fuzzy::Input& input = c_.inputs[input_of_slot(c_, slot)];
+    const Piece& piece = pieces_of(slot)[region.pieces[slot].front()];
+    fmt::format_to(std::back_inserter(out), "{}{} = {}{}", out.empty() ? "" : ", ", slot_name(c_, slot), round_middle(piece.at.front(), input, piece), unit_text(input));
   }
   return out;
 }

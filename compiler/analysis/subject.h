@@ -54,8 +54,8 @@ struct Subject {
   std::unique_ptr<Confusions> confusions;
 
   /// The one that knows `domains`, and the one that knows `widest`, with a new budget: for one list of questions after another.
-  [[nodiscard]] Satisfier& satisfier() const { return narrow_.renew(), narrow_; }
-  [[nodiscard]] Satisfier& wide_satisfier() const { return wide_.renew(), wide_; }
+  [[nodiscard]] Satisfier& satisfier() const { return renewed(narrow_); }
+  [[nodiscard]] Satisfier& wide_satisfier() const { return renewed(wide_); }
 
   /// Whether one member of the group at most is above 0 at any time.
   [[nodiscard]] bool exclusive(std::uint32_t group) const { return narrow_.exclusive()[group]; }
@@ -76,6 +76,11 @@ struct Subject {
   }
 
  private:
+  [[nodiscard]] static Satisfier& renewed(Satisfier& satisfier) {
+    satisfier.renew();
+    return satisfier;
+  }
+
   mutable Satisfier narrow_, wide_;   // answers do not depend on what was asked before
 };
 

@@ -162,17 +162,22 @@ class Loader {
   /// A file that exists and that the user may have meant by `path`, as the user would write it. Tries up to a thousand names.
   [[nodiscard]] std::optional<std::string> meant(const std::string& path, std::string_view written) const {
     if (diagnostics_.full()) return std::nullopt;
-    if (written.find('\\') != written.npos) {   // as on Windows
-      std::string slashed(written);
-      std::replace(slashed.begin(), slashed.end(), '\\', '/');
-      if (files_.read(joined(stack_.back().folder, slashed)).bytes) return slashed;
-    }
+    if (written.find('\\') != written.npos) return meant_by_slashes(written);
     const auto better = near_file(path, files_);
     if (better && !is_open(files_.canonical(*better))) return as_written(*better, path, written);   // a file cannot import itself
     if (path.ends_with("/kb.kb") && files_.read(path.substr(0, path.size() - 6) + ".kb").bytes) {
       return std::string(written.substr(0, written.size() - 3));
     }
     return without_quotes(written);
+  }
+
+  /// The same for a path as on Windows.
+  [[nodiscard]] std::optional<std::string> meant_by_slashes(std::string_view written) const {
+    std::string slashed(written);
+    std::replace(slashed.begin(), slashed.end(), '\\', '/');
+    const std::string path = joined(stack_.back().folder, slashed);
+    if (!files_.read(path).bytes) return meant(path, slashed);
+    return is_open(files_.canonical(path)) ? std::nullopt : std::optional(slashed);
   }
 
   /// How a file of the standard library is imported, for users who write `"std.road"` or `"std/road.kb"`.

@@ -87,15 +87,17 @@ bool drives_elsewhere(const Strategy& strategy, const Labyrinth& labyrinth) {
   return std::any_of(labyrinth.roads.begin(), labyrinth.roads.end(), [&](const Road& road) { return road.method == strategy.method && road.kind != Picture::Kind::kOpen; });
 }
 
-/// Whether a strategy is to cross halls: a `Move` whose method roads across halls have.
-bool drives_halls(const Strategy& strategy, const Labyrinth& labyrinth) {
-  return strategy.doing == Doing::kMove &&
-         std::any_of(labyrinth.roads.begin(), labyrinth.roads.end(), [&](const Road& road) { return road.method == strategy.method && road.kind == Picture::Kind::kOpen; });
+/// Whether a leg of a route or a detour leads along the road.
+bool is_driven(const Road& road, const Knowledge& knowledge, const Labyrinth& labyrinth) {
+  return std::ranges::any_of(knowledge.legs, [&](const Leg& leg) {
+    return (leg.from == labyrinth[road.from].name && leg.exit == road.exit) || (leg.from == labyrinth[road.to].name && leg.exit == road.approach);
+  });
 }
 
-/// What a controller goes along, which no hall has; "" if it needs no such thing.
-std::string_view track_of(mts::ControllerId id) {
-  return id == mts::ControllerId::kFollowLine ? "a line" : id == mts::ControllerId::kKeepWall ? "walls" : "";
+/// Whether a strategy is to cross a hall by a line. Walls are no such case: in a narrow hall they are within reach.
+bool follows_line_in_hall(const Strategy& strategy, const Knowledge& knowledge, const Labyrinth& labyrinth) {
+  return strategy.doing == Doing::kMove && strategy.method == "open" && strategy.controller == mts::ControllerId::kFollowLine &&
+         std::ranges::any_of(labyrinth.roads, [&](const Road& road) { return road.method == "open" && is_driven(road, knowledge, labyrinth); });
 }
 
 }  // namespace
@@ -144,12 +146,10 @@ void check_halls(const Knowledge& knowledge, const Labyrinth& labyrinth, diagnos
   std::set<std::pair<std::uint32_t, std::uint32_t>> told;   // many strategies may share one line
   for (const Strategy& strategy : knowledge.strategies) {
     if (strategy.control == nullptr) continue;
-    const std::string_view track = track_of(strategy.controller);
-    const bool no_hall = crosses_halls(strategy.controller) && drives_elsewhere(strategy, labyrinth), no_track = !track.empty() && drives_halls(strategy, labyrinth);
+    const bool no_hall = crosses_halls(strategy.controller) && drives_elsewhere(strategy, labyrinth), no_line = follows_line_in_hall(strategy, knowledge, labyrinth);
     const source::Span at = strategy.control->controller_span;
-    if ((!no_hall && !no_track) || !told.insert({static_cast<std::uint32_t>(at.file), at.begin}).second) continue;
-    if (no_hall) diagnostics.report(Kind::kSimNoHall, at, {strategy.control->controller, strategy.name});
-    else diagnostics.report(Kind::kSimNoTrack, at, {strategy.control->controller, track, strategy.name});
+    if ((!no_hall && !no_line) || !told.insert({static_cast<std::uint32_t>(at.file), at.begin}).second) continue;
+    diagnostics.report(no_hall ? Kind::kSimNoHall : Kind::kSimNoLine, at, {strategy.control->controller, strategy.name});
   }
 }
 

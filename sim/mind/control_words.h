@@ -30,7 +30,7 @@ namespace kb::sim {
 /// The arguments of the controllers that Waymark brings, by controller.
 [[nodiscard]] std::map<std::string_view, std::vector<std::string_view>> controller_arguments();
 
-/// Warns of controllers for halls that drive something else (KB1396), and of others that drive in halls (KB1511): the robot would stand
+/// Warns of controllers for halls that drive something else (KB1396), and of those that look for a line in one (KB1511): the robot would stand
 /// without any message.
 void check_halls(const Knowledge& knowledge, const Labyrinth& labyrinth, diagnostics::Diagnostics& diagnostics);
 
