@@ -55,6 +55,18 @@ std::vector<Piece> cut(const fuzzy::Input& input) {
   return pieces;
 }
 
+/// A number within the stretch, about its middle, of as few digits as that takes. The terms must be as they are in all of the piece: smooth
+/// ones have no corners, so a stretch of theirs is known at its middle only.
+double round_middle(const Stretch& stretch, const fuzzy::Input& input, const Piece& piece) {
+  for (int digits = 2; digits < 17; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", stretch.middle(), digits);
+    double rounded = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), rounded);
+    if (stretch.low < rounded && rounded < stretch.high && states_at(input, rounded) == piece.states) return rounded;
+  }
+  return stretch.middle();
+}
+
 std::string unit_text(const fuzzy::Input& input) { return input.unit.empty() ? "" : " " + input.unit; }
 
 // Neighbours are joined; where two intervals meet and their common end is not there, they stay apart.
@@ -287,22 +299,6 @@ std::string FuzzyRegions::text(const Region& region) const {
   }
   return out.empty() ? "the inputs are what they may" : out;
 }
-
-namespace {
-
-/// A number within the stretch, about its middle, of as few digits as that takes. The terms must be as they are in all of the piece: smooth
-/// ones have no corners, so a stretch of theirs is known at its middle only.
-double round_middle(const Stretch& stretch, const fuzzy::Input& input, const Piece& piece) {
-  for (int digits = 2; digits < 17; ++digits) {
-    const std::string text = fmt::format("{:.{}g}", stretch.middle(), digits);
-    double rounded = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), rounded);
-    if (stretch.low < rounded && rounded < stretch.high && states_at(input, rounded) == piece.states) return rounded;
-  }
-  return stretch.middle();
-}
-
-}  // namespace
 
 std::string FuzzyRegions::witness(const Region& region) const {
   std::string out;
