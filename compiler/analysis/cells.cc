@@ -67,7 +67,10 @@ class CellQuestions {
 
  private:
   [[nodiscard]] RuleId reader(CellId cell) const { return subject_.reader[program::index(cell)]; }
-  [[nodiscard]] RuleId setter(CellId cell) const { return subject_.setter[program::index(cell)]; }
+  [[nodiscard]] RuleId setter(CellId cell) const {
+    const auto& writers = subject_.writers.by_name[program::index(cell)];
+    return writers.empty() ? RuleId::kNone : writers.front();
+  }
   [[nodiscard]] bool is(CellId cell, CellKind kind) const { return program_[cell].kind == kind; }
 
   /// Landmarks count as used: they are on the map even if no route goes there.

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <map>
 #include <utility>
 
+#include "compiler/source/numbers.h"
 #include "compiler/source/texts.h"
 
 namespace kb::analysis {
@@ -59,9 +59,8 @@ std::vector<Piece> cut(const fuzzy::Input& input) {
 /// ones have no corners, so a stretch of theirs is known at its middle only.
 double round_middle(const Stretch& stretch, const fuzzy::Input& input, const Piece& piece) {
   for (int digits = 2; digits < 17; ++digits) {
-    const std::string text = fmt::format("{:.{}g}", stretch.middle(), digits);
     double rounded = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), rounded);
+    if (!source::read_number(fmt::format("{:.{}g}", stretch.middle(), digits), rounded)) continue;
     if (stretch.low < rounded && rounded < stretch.high && states_at(input, rounded) == piece.states) return rounded;
   }
   return stretch.middle();

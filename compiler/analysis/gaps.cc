@@ -267,9 +267,9 @@ class GapQuestions {
         if (value && (*value >= firing_) == high) all.insert(id);
       }
     };
-    add(common_.subject.writers.by_name[program::index(cell)]);
-    if (const std::uint32_t group = subject_.group_of[program::index(cell)]; group != program::kNoGroup) add(common_.subject.writers.by_clear[group]);
-    add(common_.subject.writers.by_reset);
+    add(subject_.writers.by_name[program::index(cell)]);
+    if (const std::uint32_t group = subject_.group_of[program::index(cell)]; group != program::kNoGroup) add(subject_.writers.by_clear[group]);
+    add(subject_.writers.by_reset);
     return {all.begin(), all.end()};
   }
 

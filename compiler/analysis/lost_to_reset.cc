@@ -32,8 +32,7 @@ class LostToReset {
  public:
   explicit LostToReset(const Subject& subject)
       : subject_(subject), program_(subject.program), firing_(static_cast<float>(program_.settings.firing)), satisfier_(subject.satisfier()),
-        is_high_(program_.cells.size(), CondId::kNone),
-        passed_over_(program_.cells.size(), false) {
+        is_high_(program_.cells.size(), CondId::kNone), passed_over_(program_.cells.size(), false) {
     for (const CellId strategy : program_.priority) {
       for (const CellId satellite : program_[strategy].satellites) passed_over_[program::index(satellite)] = true;
     }

@@ -66,14 +66,12 @@ void find_readers(Subject& subject) {
   }
 }
 
-void find_writers(Subject& subject) {
+void find_raisers(Subject& subject) {
   const Program& program = subject.program;
-  subject.setter.assign(program.cells.size(), RuleId::kNone);
   subject.raiser.assign(program.cells.size(), RuleId::kNone);
   for (std::uint32_t i = 0; i < program.rules.size(); ++i) {
     for (const program::Write& write : program.rules[i].writes) {
       const std::size_t cell = program::index(write.cell);
-      if (subject.setter[cell] == RuleId::kNone) subject.setter[cell] = RuleId{i};
       if (write.value > 0.0f && subject.raiser[cell] == RuleId::kNone) subject.raiser[cell] = RuleId{i};
     }
   }
@@ -130,7 +128,7 @@ Subject::Subject(const model::Model& studied, const Program& lowered, diagnostic
       narrow_(program, domains, confusions.get()), wide_(narrow_, widest) {
   find_families(*this);
   find_readers(*this);
-  find_writers(*this);
+  find_raisers(*this);
   find_clans(*this);
 }
 

@@ -48,7 +48,6 @@ struct Subject {
   std::vector<Clan> clans;
   std::vector<program::RuleId> reader;  ///< by cell: a rule that asks for it (one of the user's if there is one)
   std::vector<std::uint8_t> asked;      ///< by cell: what rules ask of it, `kAsksSight` and `kAsksHigh`
-  std::vector<program::RuleId> setter;  ///< by cell: a rule that writes it by name
   std::vector<program::RuleId> raiser;  ///< by cell: a rule that writes a positive value to it
   std::vector<bool> reported;           ///< by cell: a message has said that it never changes, or is never seen
   std::unique_ptr<Confusions> confusions;

@@ -208,8 +208,11 @@ std::optional<std::vector<Scenario>> read_scenarios(source::FileId file, const G
     scenario->line = lines.number();
     scenarios.push_back(*scenario);
   }
-  if (good && scenarios.empty()) diagnostics.report(Kind::kScenarioNone, lines.end());
-  if (!good || scenarios.empty()) return std::nullopt;
+  if (!good) return std::nullopt;
+  if (scenarios.empty()) {
+    diagnostics.report(Kind::kScenarioNone, lines.end());
+    return std::nullopt;
+  }
   return scenarios;
 }
 

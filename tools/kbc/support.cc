@@ -155,7 +155,8 @@ std::unique_ptr<driver::Compilation> Session::load(std::string_view path, driver
 
 std::string Session::make_image(const driver::Compilation& compiled) {
   std::string image = tables::write_image(compiled.tables, compiled.program);
-  return refuse_image(image) ? std::string() : image;
+  if (refuse_image(image)) return {};
+  return image;
 }
 
 bool Session::refuse_image(std::string_view image) {
