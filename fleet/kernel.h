@@ -29,7 +29,7 @@ namespace mts {
 /// Number of this contract, which includes what fleet.h and kernel_code.h require of emitted files. Every change of the contract raises it.
 /// The number of the tables is kAbi.
 inline constexpr std::uint32_t kFleetAbi = 2;
-// check_abi: 2 1235b8c0c83d
+// check_abi: 2 48dc3989603d
 
 inline constexpr std::uint32_t kBlockRobots = 512;
 inline constexpr std::uint32_t kPlaneBytes = kBlockRobots / 8;
@@ -98,7 +98,7 @@ struct FleetBlock {
   const std::byte* before;  ///< planes that the kernel makes, as the last tick left them
   std::byte* now;           ///< the same planes of this tick: the kernel writes all of them
   std::uint32_t index;
-  std::uint32_t* oldest;    ///< by timer, then by 64-bit word: no waiting robot has an older stamp. A wider word uses the item of its first 64 bits
+  std::uint32_t* oldest;    ///< by 64-bit word, then by timer: no waiting robot has an older stamp. A wider word uses the items of its first 64 bits
   FleetAhead* ahead;
 };
 

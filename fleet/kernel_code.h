@@ -88,7 +88,7 @@ class Word {
                                   std::uint32_t queue, std::uint32_t stamp, V waits, V begin) {
     const std::uint32_t bits = tick.bits[queue], ripe = tick.ripe[queue], before = tick.ripe_before[queue];
     std::byte* const stamps = tick.stamps[timer] + (std::size_t{block.index} * bits) * mts::kPlaneBytes + word * sizeof(V);
-    std::uint32_t& oldest = block.oldest[timer * mts::kPlaneWords + word * kWidthWords];
+    std::uint32_t& oldest = block.oldest[std::size_t{word} * kWidthWords * (sizeof(kTimers) / sizeof(*kTimers)) + timer];
     const bool at_once = stamp < ripe;   // `for 0 s`
     if (bits <= kShortStamp && ripe - before <= 1 && !at_once) {
       oldest = ripe;

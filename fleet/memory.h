@@ -115,7 +115,8 @@ class FleetMemory {
   }
   /// To be called after each tick: from then on all blocks have planes from which parts can be derived.
   void note_ticked() { ticked_ = true; }
-  [[nodiscard]] std::uint32_t* oldest(std::uint32_t block) { return oldest_.data() + std::size_t{block} * timers_ * kPlaneWords; }
+  /// By timer: see FleetBlock::oldest.
+  [[nodiscard]] std::uint32_t* oldest(std::uint32_t block, std::uint32_t word) { return oldest_.data() + (std::size_t{block} * kPlaneWords + word) * timers_; }
 
   /// Makes sure that each of `parts` threads has a place in which it makes the planes of a block.
   void make_room(unsigned parts) {
@@ -170,8 +171,10 @@ class FleetMemory {
       std::uint64_t& w = stamp_word(at, timer, bits, b);
       w = (stamp >> b & 1u) != 0 ? w | at.bit() : w & ~at.bit();
     }
-    std::uint32_t* const oldest = this->oldest(at.block) + std::size_t{timer} * kPlaneWords;
-    for (std::uint32_t w = 0; w < kPlaneWords; ++w) oldest[w] = (std::min)(oldest[w], stamp);   // of all words, since a wide word uses only the first of its own
+    for (std::uint32_t w = 0; w < kPlaneWords; ++w) {   // all of them, since a wide word uses only the items of its first
+      std::uint32_t& oldest = this->oldest(at.block, w)[timer];
+      oldest = (std::min)(oldest, stamp);
+    }
   }
   /// Gives a timer's stamps more bits. All of them must be from the last 2^from distinct times before `newest`. Cost: reads and writes all
   /// stamps of the timer.
