@@ -153,6 +153,35 @@ TEST(Swap, SetsOffNothingThatStands) {
   EXPECT_EQ(status_after(stops, program::testing::ProgramBuilder({"goal", "control"}).fact("On").build()), mts::Status::kNoStrategy);
 }
 
+// What has fired must not fire again as long as its condition stands; what holds while a condition stands must take hold at once.
+TEST(Swap, TakesARuleForAnotherOfTheSameNameIfOneFiresOnceAndTheOtherHolds) {
+  using namespace program::testing;
+  const auto lamp = [](bool holds) {
+    ProgramBuilder b({"goal", "control"});
+    b.fact("On").satellite("Lamp");
+    if (holds) b.while_true("light", "goal", seen("On"), {raise("Lamp")});
+    else b.when("light", "goal", seen("On"), {raise("Lamp")});
+    return b.build();
+  };
+  const auto fires_again = [](const program::Program& old, const program::Program& now) {
+    bool fires = false;
+    with_swap(old, now, [&](auto& before, const auto& to_view) {
+      for (const float on : {0.0f, 1.0f, 1.0f}) before.tick({on}, 100'000);
+      mts::SwapReport report;
+      const auto after = swapped(before, to_view, report);
+      EXPECT_EQ(report.rules.carried, 1u);
+      after->tick({1.0f}, 100'000);
+      fires = after->state.fired != 0;
+    });
+    return fires;
+  };
+  const program::Program once = lamp(false), holds = lamp(true);
+  EXPECT_FALSE(fires_again(once, once));
+  EXPECT_TRUE(fires_again(once, holds));
+  EXPECT_TRUE(fires_again(holds, holds)) << "it fires on every tick";
+  EXPECT_TRUE(fires_again(holds, once)) << "it has not fired as a rule that fires once";
+}
+
 TEST(Swap, TellsOfAnIdleStrategyThatDroveAndIsGone) {
   const auto parks = [](const std::string& where) {
     using namespace program::testing;
