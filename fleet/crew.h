@@ -19,8 +19,8 @@
 namespace mts {
 
 /// A few threads that wait for work. Use a crew from one thread at a time. A thread that has nothing to do looks for work for 0.2 ms, giving
-/// way to others, and then sleeps: waking it takes some 50 us, longer than a tick of 65,536 robots. After `fork` the child has no threads, and
-/// would wait for ever: make crews after it.
+/// way to others, and then sleeps: waking it takes some 50 us, longer than a tick of 65,536 robots. If its last work came within 1 ms, it
+/// looks for as long as that. After `fork` the child has no threads, and would wait for ever: make crews after it.
 class Crew {
  public:
   /// `threads`: how many work at the same time, including the caller's; 0 is taken as 1. If the system cannot start a thread, the program
@@ -45,10 +45,13 @@ class Crew {
     busy_.store(static_cast<std::uint32_t>(helpers_.size()), std::memory_order_relaxed);
     begin();
     work(0);
-    while (const std::uint32_t busy = busy_.load(std::memory_order_acquire)) await_change(busy_, busy, done_);
+    while (const std::uint32_t busy = busy_.load(std::memory_order_acquire)) await_change(busy_, busy, done_, kPatience);
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::microseconds kPatience{200}, kMostPatience{1'000};
+
   /// Starts all helpers; they see everything that was written before.
   void begin() {
     round_.fetch_add(1, std::memory_order_release);
@@ -56,8 +59,11 @@ class Crew {
   }
 
   void help(unsigned number) noexcept {
+    Clock::duration patience = kPatience;
     for (std::uint32_t round = 0;; ++round) {
-      await_change(round_, round, began_);
+      const Clock::time_point idle = Clock::now();
+      await_change(round_, round, began_, patience);
+      patience = Clock::now() - idle < kMostPatience ? kMostPatience : kPatience;
       if (work_ == nullptr) return;
       (*work_)(number);
       if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) wake(done_);
@@ -71,11 +77,11 @@ class Crew {
   }
 
   // Not std::atomic::wait: without futexes, as on Windows, libstdc++ 12 loses wakes.
-  void await_change(const std::atomic<std::uint32_t>& number, std::uint32_t from, std::condition_variable& changes) {
+  void await_change(const std::atomic<std::uint32_t>& number, std::uint32_t from, std::condition_variable& changes, Clock::duration patience) {
     const auto changed = [&] { return number.load(std::memory_order_acquire) != from; };
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::microseconds(200);
+    const Clock::time_point until = Clock::now() + patience;
     while (!changed()) {
-      if (std::chrono::steady_clock::now() < patience) {
+      if (Clock::now() < until) {
         std::this_thread::yield();
       } else {
         std::unique_lock<std::mutex> lock(mutex_);

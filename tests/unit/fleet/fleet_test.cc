@@ -197,10 +197,11 @@ TEST(Fleet, DecidesTheSameOnSeveralThreads) {
 TEST(Crew, WorksAgainWhenItsThreadsHaveGoneToSleep) {
   mts::Crew crew(3);
   std::atomic<int> worked = 0;
-  for (int round = 1; round <= 3; ++round) {
+  int round = 0;
+  for (const int wait_us : {2'000, 2'000, 500, 500, 2'000, 2'000}) {   // they look for work for 200 us, or 1,000 after one that came soon
     crew.run([&](unsigned) { ++worked; });
-    EXPECT_EQ(worked, 3 * round);
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));   // ten times as long as they look for work
+    EXPECT_EQ(worked, 3 * ++round);
+    std::this_thread::sleep_for(std::chrono::microseconds(wait_us));
   }
 }
 
