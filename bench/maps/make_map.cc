@@ -17,5 +17,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const RoadMap map = kind == "city" ? make_city(roads, seed) : make_warehouse(roads, seed);
   const std::string text = kb_text(map, make_tour(map, legs, seed));
-  return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() ? 0 : 1;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return 0;
+  std::perror("make_map: cannot write the map");
+  return 1;
 }

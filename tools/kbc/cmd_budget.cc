@@ -7,6 +7,7 @@
 #include <string>
 
 #include <waymark/runtime/certainty.h>
+#include <waymark/runtime/masks.h>
 #include "compiler/tables/tables.h"
 #include "tools/kbc/support.h"
 
@@ -41,13 +42,17 @@ std::string print_json(const tables::Budget& b) {
   return object.dump(2) + "\n";
 }
 
-std::string print_text(const tables::Budget& b) {
+std::string print_text(const tables::Budget& b, bool image) {
   std::string out;
   const auto line = [&out](std::string_view what, std::size_t count, std::string_view about) {
     fmt::format_to(std::back_inserter(out), "{:<14}{:>10}{}{}\n", what, count, about.empty() ? "" : "  ", about);
   };
   line("tables", b.table_bytes, "bytes, read-only (flash)");
-  if (b.mask_bytes != 0) line("  as masks", b.mask_bytes, "bytes more, and code for each atom, where compiled for speed; none with -Os or --compact");
+  if (b.mask_bytes != 0) {
+    line("  as masks", b.mask_bytes, "bytes more, and code for each atom, where compiled for speed; none with -Os or --compact");
+  } else if (!image) {
+    line("  as masks", 0, fmt::format("bytes: with more than {} rules, {} atoms or {} satellites, rules stay lists", mts::kMostMaskedRules, mts::kMostMasked, mts::kMostMasked));
+  }
   line("state", b.state_bytes, "bytes of memory, owned by the caller");
   if (b.compact_state_bytes != 0) line("  compact", b.compact_state_bytes, "bytes of memory instead with --compact; the tables shrink as well");
   line("names", b.name_bytes, "bytes and a pointer to each, read-only, only if names are linked in");
@@ -68,7 +73,7 @@ std::string print_text(const tables::Budget& b) {
   line("atoms", b.atoms, "different conditions on single cells, a bit each");
   line("nodes", b.nodes, "conditions put together of others");
   line("timers", b.timers, "different `for` conditions");
-  line("rules awake", b.most_awake, "can be awake at once, exclusive groups counted once");
+  line("rules awake", b.most_awake, image ? "can be awake at once; which facts exclude each other is not in an image" : "can be awake at once, exclusive groups counted once");
   line("rules counted", b.counted, "have so long a condition that what holds of it is counted; the others sleep under a key");
   return out;
 }
@@ -82,8 +87,13 @@ Run setup_budget(CLI::App& app) {
   return [options](Session& session) {
     const auto compiled = session.load(options->file, driver::Stage::kTables);
     if (!compiled->ok()) return static_cast<int>(kErrors);
-    const tables::Budget budget = tables::budget(compiled->tables, compiled->program);
-    session.print(options->json ? print_json(budget) : print_text(budget));
+    tables::Budget budget = tables::budget(compiled->tables, compiled->program);
+    const bool image = compiled->image != nullptr;
+    if (image) {   // it has neither masks nor a compact form
+      budget.state_bytes -= mts::mask_state_bytes(compiled->tables.shape);
+      budget.mask_bytes = budget.compact_state_bytes = 0;
+    }
+    session.print(options->json ? print_json(budget) : print_text(budget, image));
     return session.exit_code();
   };
 }

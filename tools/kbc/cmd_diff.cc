@@ -49,7 +49,6 @@ void summarise(const DiffOptions& options, const DiffCounts& counts, Session& se
   } else if (counts.differ == 0) {
     session.print(fmt::format("the same decisions in {}\n", diagnostics::counted(counts.ticks, "tick")));
   } else {
-    if (counts.differ > options.most) session.print(fmt::format("... and {} more ticks (--most)\n", counts.differ - options.most));
     session.print(fmt::format("{} of {} ticks differ, the strategy in {}; the first is tick {}\n", counts.differ, counts.ticks,
                               counts.strategy, counts.first));
   }
@@ -163,6 +162,7 @@ int diff(const DiffOptions& options, Session& session) {
     diagnostics.report(diagnostics::Kind::kWhyNoTick, {}, {"1", options.recorded.path(), "0 ticks"});
     return kErrors;
   }
+  if (!options.json && counts.differ > options.most) session.print(fmt::format("... and {} more ticks (--most)\n", counts.differ - options.most));
   show_maps(maps, options, session);
   show_uncompared(*before, *after, options, session);
   summarise(options, counts, session);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/diagnostics/display.h"
 #include "compiler/source/fingerprint.h"
 #include "compiler/source/numbers.h"
 #include "planners/crew.h"
@@ -247,6 +248,14 @@ int tell_status(const Batch& batch, const BatchFiles& files, std::size_t shards,
   return session.exit_code();
 }
 
+/// After a share: how far the whole batch is, and what comes next.
+void tell_share(const BatchFiles& files, std::size_t shards, Session& session) {
+  const std::size_t done = files.done();
+  if (files.complete()) session.remark(fmt::format("the batch is merged already: {}", files.path("runs.csv")));
+  else if (done == shards) session.remark(fmt::format("all {} are done; the same command with `--merge` in place of `--shard` puts them together", diagnostics::counted(shards, "shard")));
+  else session.remark(fmt::format("{} of {} shards are done; when all are, the same command with `--merge` in place of `--shard` puts them together", done, shards));
+}
+
 int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session& session) {
   Prepared prepared;
   const auto expected = expected_counts(options.expect, sim::batch::countable(), session);
@@ -269,8 +278,7 @@ int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session
     if (!files.claimed_all(session)) return kErrors;
   }
   if (!options.share.empty()) {
-    session.remark(fmt::format("{} of {} shards are done; when all are, the same command with `--merge` in place of `--shard` puts them together", wanted.size(),
-                               prepared.batch->shards()));
+    tell_share(files, prepared.batch->shards(), session);
     return session.exit_code();
   }
   const auto merged = files.merge(session);

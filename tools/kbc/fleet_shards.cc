@@ -80,6 +80,7 @@ std::string BatchFiles::shard_head(std::size_t shard) const { return fmt::format
 std::string BatchFiles::differs(std::string_view there) const {
   if (!there.starts_with("# kbc fleet, batch ")) return there.starts_with("# kbc ") ? "an experiment; name another folder" : "no batch; name another folder";
   const std::string_view line = there.substr(0, there.find('\n'));
+  if (line.ends_with('\r')) return "a batch whose lines end as on Windows (CRLF); copy its files as they are";
   std::string items;
   for (const auto& [name, value] : parts_) {
     const std::size_t at = line.find(", " + name + " ");
@@ -151,6 +152,13 @@ std::optional<std::vector<sim::batch::Run>> BatchFiles::runs(Session& session) c
   const bool good = complete_ ? take(path("runs.csv"), head_, {0, batch_.runs()})
                               : std::ranges::all_of(there_, [&](std::size_t shard) { return take(shard_path(shard), shard_head(shard), batch_.block(shard)); });
   return good ? std::optional(std::move(runs)) : std::nullopt;
+}
+
+std::size_t BatchFiles::done() const {
+  std::error_code ignored;
+  std::size_t count = 0;
+  for (std::size_t shard = 0; shard < batch_.shards(); ++shard) count += complete_ || std::filesystem::exists(shard_path(shard), ignored) ? 1 : 0;
+  return count;
 }
 
 bool BatchFiles::claim(Session& session) {

@@ -52,9 +52,13 @@ class BatchFiles {
   [[nodiscard]] bool open(Session& session, const std::vector<std::size_t>& wanted);
   /// The wanted shards that are missing, in order.
   [[nodiscard]] const std::vector<std::size_t>& missing() const { return missing_; }
+  /// Whether the batch is merged already.
+  [[nodiscard]] bool complete() const { return complete_; }
   /// The runs that are there, in order: of the whole batch, or of the wanted shards that `open` found. Nothing (reported) if one cannot be
   /// read.
   [[nodiscard]] std::optional<std::vector<sim::batch::Run>> runs(Session& session) const;
+  /// How many shards of the whole batch are there.
+  [[nodiscard]] std::size_t done() const;
   /// Makes the folder of shards, and drops from the missing ones those that another process has in hand. Of the others it removes what
   /// processes left that were killed while they wrote. False (reported) if the folder cannot be made.
   [[nodiscard]] bool claim(Session& session);

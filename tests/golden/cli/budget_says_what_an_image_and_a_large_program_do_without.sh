@@ -1,0 +1,2 @@
+# RUN: printf 'levels think > act\ncommand Button\nstrategy Lamp\npriority Lamp\ncontrol Lamp = switch()\nrule light at think when event Button and sat Button then +sat Lamp\n' > %t/lamp.kb && kbc compile %t/lamp.kb --emit image --out %t && kbc budget %t/lamp.kbt
+# RUN: { printf 'levels think > act\nfact Wall\nsatellites S0'; seq -f ', S%g' 1 256 | tr -d '\n'; printf '\nrule one at think when seen Wall then +S0\n'; } > %t/large.kb && kbc budget -w %t/large.kb

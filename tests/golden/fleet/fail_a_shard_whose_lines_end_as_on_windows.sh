@@ -1,0 +1,1 @@
+# RUN: kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8 --shard 1/2 -q && sed 's/$/\r/' %t/results/shards/0001.csv > %t/windows && cp %t/windows %t/results/shards/0001.csv && kbc fleet ../../../examples/04_simulator/route1.kb --out %t/results --seeds 1-8
