@@ -131,12 +131,13 @@ class GroupPlan {
   std::vector<bool> failed_;
 };
 
-bool all_different_and_free(const Grid& grid, const std::vector<Cell>& cells) {
+bool all_free(const Grid& grid, const std::vector<Cell>& cells) {
+  return std::none_of(cells.begin(), cells.end(), [&](Cell cell) { return grid.blocked(cell); });
+}
+
+bool all_different(const Grid& grid, const std::vector<Cell>& cells) {
   std::vector<CellIndex> places;
-  for (const Cell cell : cells) {
-    if (grid.blocked(cell)) return false;
-    places.push_back(grid.index(cell));
-  }
+  for (const Cell cell : cells) places.push_back(grid.index(cell));
   std::sort(places.begin(), places.end());
   return std::adjacent_find(places.begin(), places.end()) == places.end();
 }
@@ -149,9 +150,11 @@ GroupResult plan_group(const GroupProblem& problem, const RunOptions& run, const
     result.fault = Fault::kEmptyMap;
   } else if (problem.starts.size() != problem.goals.size()) {
     result.fault = Fault::kBadParameter;
-  } else if (!all_different_and_free(*problem.grid, problem.starts)) {
+  } else if (!all_free(*problem.grid, problem.starts)) {
     result.fault = Fault::kStartBlocked;
-  } else if (!all_different_and_free(*problem.grid, problem.goals)) {
+  } else if (!all_different(*problem.grid, problem.starts)) {
+    result.fault = Fault::kSharedStart;
+  } else if (!all_free(*problem.grid, problem.goals) || !all_different(*problem.grid, problem.goals)) {
     result.fault = Fault::kGoalBlocked;
   } else {
     return GroupPlan(problem, run, options).go();

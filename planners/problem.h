@@ -47,7 +47,8 @@ enum class Fault : std::uint8_t {
   kEmptyMap,        ///< the grid has no cells
   kNotFinite,       ///< a coordinate is not a number
   kStartOutside, kGoalOutside,
-  kStartBlocked, kGoalBlocked,
+  kStartBlocked,
+  kGoalBlocked,     ///< also, of a group: two robots have one goal
   kBadParameter,    ///< a parameter of the method, or the tolerance, is out of its range
   kSharedStart,     ///< of a group: two robots start in the same cell
   kMoversUnknown,   ///< there are moving obstacles, and the method takes none

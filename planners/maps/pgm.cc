@@ -33,6 +33,10 @@ class Pgm {
         !read_number("the value of white", 65535, header.most)) {
       return std::nullopt;
     }
+    if (header.binary && at_ < bytes_.size() && !is_space(bytes_[at_])) {
+      diagnostics_.report(Kind::kPgmNumber, span(at_, at_ + 1), {"a white space", "one, and then the pixels"});
+      return std::nullopt;
+    }
     ++at_;   // exactly one white space stands between the header and the pixels
     return header;
   }

@@ -29,7 +29,7 @@ Word strip(Word value) {
     const std::size_t close = value.text.find(value.text[0], 1);
     return close == std::string_view::npos ? value : part(value, 1, close - 1);
   }
-  std::size_t comment = value.text.find(" #");
+  std::size_t comment = std::min(value.text.find(" #"), value.text.find("\t#"));
   if (value.text.starts_with('#')) comment = 0;
   return comment == std::string_view::npos ? value : trim(part(value, 0, comment));
 }

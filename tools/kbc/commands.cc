@@ -195,7 +195,7 @@ constexpr std::array kCommands = {
             "kbc experiment --out try --mind careful.kb                      # and rules of your own, as one method more\n",
             Shared::kCompiles, setup_experiment},
     Command{"fmt", "Lay out knowledge bases in the one canonical way",
-            "Only white space changes; comments stay where they are. A folder stands for all .kb files in it and below. A file "
+            "Only white space changes, and a byte order mark goes; comments stay where they are. A folder stands for all .kb files in it and below. A file "
             "with errors is left as it is.",
             "kbc fmt mission.kb                              # to standard output\n"
             "kbc fmt -i mission.kb maps                      # in place, a file and a folder\n"

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostics.h"
@@ -22,6 +23,9 @@ struct Expectation {
 };
 /// The words that --allow takes.
 [[nodiscard]] std::vector<std::string> blemishes();
+/// Whether a drive that ended like this ended as the words say: the last ones may be left out, `arrived` stands for `arrived at Shelf`,
+/// but none of several reports.
+[[nodiscard]] bool ends_as(std::string_view ending, std::string_view words);
 /// Reports an ending that differs (KB1357), things that no drive should do (KB1359), and events that never happened (KB1360).
 void compare(const sim::Summary& summary, const Expectation& expected, diagnostics::Diagnostics& messages);
 

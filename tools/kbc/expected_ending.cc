@@ -8,6 +8,7 @@
 
 #include "compiler/diagnostics/display.h"
 #include "sim/drive/judge.h"
+#include "tools/kbc/drive_verdict.h"
 
 namespace kb::cli {
 namespace {
@@ -49,11 +50,6 @@ std::vector<std::string> endings(const sim::Labyrinth& labyrinth, const sim::Kno
   return all;
 }
 
-/// Whether the ending begins with these words: as `compare` of drive_verdict.h sees it.
-bool begins(std::string_view ending, std::string_view words) {
-  return !words.empty() && ending.starts_with(words) && (ending.size() == words.size() || ending[words.size()] == ' ');
-}
-
 /// The first of several reports that is not known; empty if all are.
 std::string unknown_report(std::string_view reports, const std::vector<std::string>& known) {
   while (true) {
@@ -81,7 +77,7 @@ bool can_be_expected(const std::string& expected, const sim::Labyrinth& labyrint
     return any_report || unknown.empty() || refuse(fmt::format("nothing reports {}", diagnostics::quoted_code(unknown)), unknown, known);
   }
   const std::vector<std::string> all = endings(labyrinth, knowledge);
-  if (std::any_of(all.begin(), all.end(), [&](const std::string& one) { return begins(one, expected); })) return true;
+  if (std::any_of(all.begin(), all.end(), [&](const std::string& one) { return ends_as(one, expected); })) return true;
   std::string why(kEndingForms);
   for (const std::string_view words : kWithLandmark) {
     if (!expected.starts_with(words)) continue;

@@ -167,7 +167,7 @@ TEST(Group, refuses_two_robots_in_one_cell) {
   problem.grid = &grid;
   problem.starts = {{0, 0}, {0, 0}};
   problem.goals = {{4, 0}, {1, 0}};
-  EXPECT_EQ(plan_group(problem, {}).fault, Fault::kStartBlocked);
+  EXPECT_EQ(plan_group(problem, {}).fault, Fault::kSharedStart);
   problem.starts = {{0, 0}, {1, 1}};
   problem.goals = {{3, 0}, {3, 0}};
   EXPECT_EQ(plan_group(problem, {}).fault, Fault::kGoalBlocked);

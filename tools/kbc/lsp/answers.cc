@@ -81,7 +81,8 @@ source::Span place_of_import(const Knowledge& knowledge, source::FileId file) {
   for (const syntax::Statement& statement : knowledge.statements(file)) {
     if (!std::holds_alternative<syntax::Import>(statement.node)) continue;
     const auto line = sources.line_of(file, statement.span.end);
-    at = static_cast<std::uint32_t>(sources.bytes(file).find('\n', line.begin) + 1);
+    const std::size_t end = sources.bytes(file).find('\n', line.begin);
+    if (end != std::string::npos) at = static_cast<std::uint32_t>(end + 1);   // after the last line there is no place but before it
   }
   return {file, at, at};
 }

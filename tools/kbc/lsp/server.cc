@@ -135,7 +135,7 @@ bool Server::run() {
     }
     cancelled_.clear();
     // If more messages wait, because the user is typing, only the last text counts.
-    if (!left_ && workspace_.changed() && !wire_.waiting()) publish();
+    if (!left_ && workspace_.changed() && (!open || !wire_.waiting())) publish();
   }
   return left_ && shut_down_;
 }

@@ -1,0 +1,1 @@
+# RUN: printf 'P2 2 1 255 255 255\n' > %t/a.pgm && printf 'image:\ta.pgm\t# c\nresolution: 1\t#x\norigin:\n- 0\n- 0\n- 0 # c\n' > %t/a.yaml && kbc plan %t/a.yaml --from 0.5,0.5 --to 1.5,0.5 | head -n 1

@@ -1,0 +1,1 @@
+# RUN: printf '[[event]]\nwhen = { time = 3 }\nsensor = "line"\nfault = "none"\nfor = 2\n\n[[event]]\nwhen = { time = 3 }\ntag = "LM2.E"\nreads = "itself"\nfor = 2\n' > %t/s.toml && kbc sim -w ../../../examples/04_simulator/route1.kb --scenario %t/s.toml
