@@ -80,16 +80,18 @@ std::size_t fuzzy_stack_bytes(const FuzzyForm& form) {
 
 }  // namespace
 
-Budget budget(const Tables& tables, const program::Program& program) {
+Budget budget(const Tables& tables, const program::Program& program, bool image) {
   Budget b;
   const mts::Shape& n = tables.shape;
   b.table_bytes = tables.narrow ? table_bytes<std::uint16_t>(tables) : table_bytes<std::uint32_t>(tables);
   b.state_bytes = tables.narrow
                       ? mts::DynamicState<std::uint16_t>::bytes(n) + sizeof(mts::Scalars<std::uint16_t>)
                       : mts::DynamicState<std::uint32_t>::bytes(n) + sizeof(mts::Scalars<std::uint32_t>);
-  b.state_bytes += mts::mask_state_bytes(n);
-  if (against_compact(tables, program).empty()) b.compact_state_bytes = compact_state_bytes(n, compact_shape(tables));
-  b.mask_bytes = mts::mask_table_bytes(n);
+  if (!image) {
+    b.state_bytes += mts::mask_state_bytes(n);
+    b.mask_bytes = mts::mask_table_bytes(n);
+    if (against_compact(tables, program).empty()) b.compact_state_bytes = compact_state_bytes(n, compact_shape(tables));
+  }
   for (const program::Cell& cell : program.cells) b.name_bytes += cell.name.size() + 1;
   for (const program::Rule& rule : program.rules) b.name_bytes += rule.name.size() + 1;
   const PerceptionForm perception = build_perception(program);

@@ -32,7 +32,7 @@ inline constexpr std::size_t kWorthAThread = 20'000;
 /// One item a line, stable: for `kbc dump tables`.
 [[nodiscard]] std::string print(const Tables& tables, const program::Program& program);
 
-/// What a knowledge base costs.
+/// What a knowledge base costs: emitted as C++, or as an image, which has neither masks nor a compact form.
 struct Budget {
   std::size_t table_bytes = 0;        ///< read-only
   std::size_t state_bytes = 0;        ///< memory that the caller owns
@@ -47,7 +47,7 @@ struct Budget {
   std::uint32_t counted = 0;          ///< rules whose condition is so long that a node counts the parts that hold
   std::uint32_t most_awake = 0;       ///< how many of `rules` can be awake at once (exclusive groups counted once)
 };
-[[nodiscard]] Budget budget(const Tables& tables, const program::Program& program);
+[[nodiscard]] Budget budget(const Tables& tables, const program::Program& program, bool image = false);
 
 /// The runtime's engine (the very code that robots run) on tables in memory, speaking `program::Tick`.
 /// `program` and `tables` must outlive it. Same contract as program::Interpreter.

@@ -44,19 +44,6 @@ bool same_held(const Action& a, const Action& b) {
   return false;
 }
 
-/// Whether the action restores its thing to how it was at the beginning.
-bool restores(const Action& action) {
-  switch (action.kind) {
-    case Action::Kind::kTag: return action.tag == Floor::TagState::kWell;
-    case Action::Kind::kSensor: return action.fault == Fault::kNone;
-    case Action::Kind::kRelease:
-    case Action::Kind::kNoSteel:
-    case Action::Kind::kPowerOn:
-    case Action::Kind::kRemove: return true;
-    default: return false;
-  }
-}
-
 }  // namespace
 
 bool Drive::happens(const Trigger& trigger) const {

@@ -317,6 +317,7 @@ bool EventReader::read_action() {
 
 /// Writes the action that ends this one; false if there is none.
 bool EventReader::undo() {
+  if (restores(event_.action)) return false;
   Action back = event_.action;
   const std::string subject = event_.text.substr(0, event_.text.rfind(' '));
   switch (back.kind) {
@@ -330,12 +331,10 @@ bool EventReader::undo() {
     case Do::kObstacle: back.kind = Do::kRemove; event_.undo_text = back.obstacle.name + " vanishes"; break;
     case Do::kWear: back.kind = Do::kMend; event_.undo_text = event_.text.substr(0, event_.text.find(" loses")) + " has its marking again"; break;
     case Do::kTag:
-      if (back.tag == Floor::TagState::kWell) return false;
       back.tag = Floor::TagState::kWell;
       event_.undo_text = subject + " itself again";
       break;
     case Do::kSensor:
-      if (back.fault == Fault::kNone) return false;
       back.fault = Fault::kNone;
       event_.undo_text = subject + " well again";
       break;
@@ -348,6 +347,18 @@ bool EventReader::undo() {
 }
 
 }  // namespace
+
+bool restores(const Action& action) {
+  switch (action.kind) {
+    case Do::kTag: return action.tag == Floor::TagState::kWell;
+    case Do::kSensor: return action.fault == Fault::kNone;
+    case Do::kRelease:
+    case Do::kNoSteel:
+    case Do::kPowerOn:
+    case Do::kRemove: return true;
+    default: return false;
+  }
+}
 
 std::vector<Event> read_events(TomlTable& file, const Names& names, double limit_s) {
   std::vector<Event> events;

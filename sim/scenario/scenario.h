@@ -65,6 +65,9 @@ struct Action {
   Floor::Cause cause = Floor::kNobody;   ///< shared by an action that ends later and the action that ends it
 };
 
+/// Whether the action restores its thing to how it was at the beginning; such an action has none that ends it.
+[[nodiscard]] bool restores(const Action& action);
+
 struct Event {
   Trigger when;
   Action action;

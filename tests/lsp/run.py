@@ -3,6 +3,7 @@
 
   run.py KBC LIBRARY
 """
+import json
 import pathlib
 import subprocess
 import sys
@@ -284,6 +285,14 @@ def what_editors_should_not_do(folder):
         expect(done.returncode == 1 and done.stdout == b'', f'{what} ends the server with 1')
 
 
+def an_end_without_exit(folder):
+    document = {'uri': (folder / 'robot.kb').as_uri(), 'languageId': 'kb', 'version': 1, 'text': 'levels a\nrule r at a when Wal then reset\n'}
+    told = ({'id': 1, 'method': 'initialize', 'params': {'processId': None, 'rootUri': None, 'capabilities': {}}}, {'method': 'textDocument/didOpen', 'params': {'textDocument': document}})
+    bodies = [json.dumps({'jsonrpc': '2.0', **message}).encode() for message in told]
+    done = subprocess.run([KBC, 'lsp', '--library', LIBRARY], input=b''.join(b'Content-Length: %d\r\n\r\n' % len(body) + body for body in bodies), capture_output=True, timeout=60)
+    expect(done.returncode == 1 and b'"uri":"' + document['uri'].encode() in done.stdout and b'KB0401' in done.stdout, 'who ends the stream after a text is told what is wrong with it')
+
+
 def main():
     for case in (messages_while_typing, a_part_is_judged_with_the_whole, questions, completion, names_of_open_files, layout_and_colours):
         with tempfile.TemporaryDirectory() as folder:
@@ -292,7 +301,7 @@ def main():
             more = [result['capabilities']['semanticTokensProvider']['legend']['tokenTypes']] if case is layout_and_colours else []
             case(editor, pathlib.Path(folder).resolve(), *more)
             expect(editor.leave() == 0 and editor.process.stderr.read() == b'', f'{case.__name__}: the server leaves in silence')
-    for case in (files_that_change_outside, bytes_and_units, what_editors_should_not_do):
+    for case in (files_that_change_outside, bytes_and_units, what_editors_should_not_do, an_end_without_exit):
         with tempfile.TemporaryDirectory() as folder:
             case(pathlib.Path(folder).resolve())
     for case in renaming.CASES + writing.CASES:

@@ -123,6 +123,10 @@ def half_written(kbc, library, folder):
     [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message], 'only': ['quickfix']})
     expect(fix['edit']['changes'][uri] == [{'range': {'start': {'line': 1, 'character': 0}, 'end': {'line': 1, 'character': 0}}, 'newText': 'import std.search\n'}], 'the import that is missing is a quick fix')
     expect(editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message], 'only': ['source.fixAll']}) == [], 'for who wants such')
+    editor.change(uri, text := 'rule r at goal when Help.refused then reset\nimport std.basics')
+    [message] = editor.messages_of(uri)
+    [fix] = editor.of(uri, 'codeAction', range=message['range'], context={'diagnostics': [message], 'only': ['quickfix']})
+    expect(fix['edit']['changes'][uri] == [{'range': {'start': {'line': 1, 'character': 17}, 'end': {'line': 1, 'character': 17}}, 'newText': '\nimport std.search'}], 'also where the last import ends the file')
     expect(editor.leave() == 0, 'the server leaves when it is told')
 
 

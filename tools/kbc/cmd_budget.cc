@@ -87,12 +87,8 @@ Run setup_budget(CLI::App& app) {
   return [options](Session& session) {
     const auto compiled = session.load(options->file, driver::Stage::kTables);
     if (!compiled->ok()) return static_cast<int>(kErrors);
-    tables::Budget budget = tables::budget(compiled->tables, compiled->program);
     const bool image = compiled->image != nullptr;
-    if (image) {   // it has neither masks nor a compact form
-      budget.state_bytes -= mts::mask_state_bytes(compiled->tables.shape);
-      budget.mask_bytes = budget.compact_state_bytes = 0;
-    }
+    const tables::Budget budget = tables::budget(compiled->tables, compiled->program, image);
     session.print(options->json ? print_json(budget) : print_text(budget, image));
     return session.exit_code();
   };

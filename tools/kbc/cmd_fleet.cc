@@ -251,9 +251,9 @@ int tell_status(const Batch& batch, const BatchFiles& files, std::size_t shards,
 /// After a share: how far the whole batch is, and what comes next.
 void tell_share(const BatchFiles& files, std::size_t shards, Session& session) {
   const std::size_t done = files.done();
-  if (files.complete()) session.remark(fmt::format("the batch is merged already: {}", files.path("runs.csv")));
-  else if (done == shards) session.remark(fmt::format("all {} are done; the same command with `--merge` in place of `--shard` puts them together", diagnostics::counted(shards, "shard")));
-  else session.remark(fmt::format("{} of {} shards are done; when all are, the same command with `--merge` in place of `--shard` puts them together", done, shards));
+  if (files.complete()) return session.remark(fmt::format("the batch is merged already: {}", files.path("runs.csv")));
+  const std::string far = done == shards ? fmt::format("all {} are done;", diagnostics::counted(shards, "shard")) : fmt::format("{} of {} shards are done; when all are,", done, shards);
+  session.remark(far + " the same command with `--merge` in place of `--shard` puts them together");
 }
 
 int lead(const FleetOptions& options, const Share& share, unsigned jobs, Session& session) {

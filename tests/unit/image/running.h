@@ -1,4 +1,4 @@
-// An engine on an image, for tests: its memory, its trace, and a swap that leaves the old one behind.
+// An engine on an image, for tests: its memory, its trace, a swap that leaves the old one behind, and a program of many facts.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 
 #include <waymark/runtime/swap.h>
 #include "compiler/tables/image.h"
+#include "tests/unit/program/program_builder.h"
 
 namespace kb::tables::testing {
 
@@ -67,6 +68,20 @@ template <class A, class B>
     if (losses != nullptr) losses->push_back(fmt::format("{} {} {}", mts::text(loss.what), loss.name, loss.value));
   });
   return next;
+}
+
+/// `facts` facts, each with a satellite, and a few rules about the first forty; above 32,767 facts indexes need 32 bits.
+inline program::Program many_facts(std::size_t facts) {
+  using namespace program::testing;
+  ProgramBuilder b({"goal", "control"});
+  for (std::size_t i = 0; i < facts; ++i) b.fact("F" + std::to_string(i));
+  b.strategy("Go").strategy("Wait");
+  for (std::size_t i = 0; i < 40; ++i) {
+    const std::string name = "F" + std::to_string(i);
+    b.when("note " + name, "goal", all({held(seen(name), 300'000)}), {raise("sat " + name), i % 2 == 0 ? raise("sat Go") : lower("sat Go")});
+  }
+  b.when("wait", "goal", all({event("F1")}), {raise("sat Wait")});
+  return b.build();
 }
 
 }  // namespace kb::tables::testing

@@ -74,17 +74,22 @@ Json message_json(const Workspace& workspace, const Knowledge& knowledge, const 
   return out;
 }
 
-/// Where another import belongs: on the line after the imports of the file.
-source::Span place_of_import(const Knowledge& knowledge, source::FileId file) {
+struct Better { std::string title; source::Span place; std::string text; };
+
+/// Another import, where it belongs: on the line after the imports of the file.
+Better another_import(const Knowledge& knowledge, source::FileId file, const std::string& import) {
   const source::Sources& sources = knowledge.compiled->sources;
   std::uint32_t at = 0;
+  bool unended = false;   // the last import ends the file without a line break
   for (const syntax::Statement& statement : knowledge.statements(file)) {
     if (!std::holds_alternative<syntax::Import>(statement.node)) continue;
     const auto line = sources.line_of(file, statement.span.end);
-    const std::size_t end = sources.bytes(file).find('\n', line.begin);
-    if (end != std::string::npos) at = static_cast<std::uint32_t>(end + 1);   // after the last line there is no place but before it
+    const std::string_view bytes = sources.bytes(file);
+    const std::size_t end = bytes.find('\n', line.begin);
+    unended = end == std::string_view::npos;
+    at = static_cast<std::uint32_t>(unended ? bytes.size() : end + 1);
   }
-  return {file, at, at};
+  return {"Write `" + import + "`", {file, at, at}, unended ? "\n" + import : import + "\n"};
 }
 
 /// The text that replaces `written`. Messages name a file without its quotes, and a file of the library with the word before it.
@@ -93,8 +98,6 @@ std::string instead_of(std::string_view written, const std::string& suggestion) 
   if (!written.starts_with('"')) return suggestion;
   return suggestion.starts_with(kImport) ? suggestion.substr(kImport.size()) : "\"" + suggestion + "\"";
 }
-
-struct Better { std::string title; source::Span place; std::string text; };
 
 /// Texts that could replace what a message is about, or say that it is meant so.
 std::vector<Better> better_texts(const Knowledge& knowledge, const diagnostics::Diagnostic& message) {
@@ -106,7 +109,7 @@ std::vector<Better> better_texts(const Knowledge& knowledge, const diagnostics::
   for (const diagnostics::Note& note : message.notes) {
     if (note.kind != diagnostics::Kind::kImportBrings) continue;
     const std::string import = note.text.substr(1, note.text.rfind('`') - 1);   // the note begins with the import, in backticks
-    out.push_back({"Write `" + import + "`", place_of_import(knowledge, message.span.file), import + "\n"});
+    out.push_back(another_import(knowledge, message.span.file, import));
   }
   if (const std::string_view flag = diagnostics::info(message.kind).flag; !flag.empty() && message.span.known()) {
     const auto statements = knowledge.statements(message.span.file);
