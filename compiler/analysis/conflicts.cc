@@ -10,15 +10,21 @@
 // pair the demands that follow without search are compared first (compatible); only then a search looks for a moment at
 // which both can fire (Satisfier). If a contested cell has too many pairs, the analysis reports that and gives up on the cell. If all
 // cells together have, or more rules were found to disagree than are shown, it gives up on the rest and reports that once for each level.
+//
+// note [put back]
+// A reset silences all rules but other resets, and puts back what it does not write, so it disagrees with a reset that writes that. If each
+// of many resets writes a cell of its own, each of these cells is contested by all of them. So they are no writers of the cell; those that write it
+// are compared with the others, which stand in buckets once for all cells.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 #include <map>
 #include <optional>
-#include <set>
+#include <string_view>
 #include <unordered_map>
 
+#include "compiler/analysis/apart_in_time.h"
 #include "compiler/analysis/conflict_findings.h"
 #include "compiler/analysis/satisfier.h"
 #include "compiler/analysis/subject.h"
@@ -40,6 +46,10 @@ constexpr std::uint64_t kMostPairsInAll = 12'000'000;
 constexpr std::size_t kMostFindings = 1'000; ///< pairs of rules as written; far more than are shown
 constexpr std::size_t kMostDemands = 2'000'000;  ///< of the rules of one level; once there are more, `no` over a long group demands nothing
 constexpr std::size_t kFewParts = 64;
+constexpr std::string_view kTooMany = "too many of them write the same cells";
+
+// What the rules of a level do to a thing.
+constexpr std::uint8_t kRaised = 1, kLowered = 2, kContested = kRaised | kLowered;
 
 /// A rule that writes a thing. Of two that disagree about it at least one raises it.
 struct Writer {
@@ -61,6 +71,7 @@ class ConflictQuestions {
 
   void run() {
     contested_.resize(program_.cells.size() + program_.exclusive.size());
+    put_back_.resize(contested_.size());
     for (std::uint32_t level = 0; level < program_.levels.size(); ++level) {
       const auto [begin, end] = program::rules_of(program_, level);
       search_level(begin, end);
@@ -78,42 +89,48 @@ class ConflictQuestions {
     return static_cast<std::uint32_t>(program_.cells.size()) + group;
   }
 
-  /// Calls `f(thing, raises, lowers)` for all that the rule writes by name or clears, and for those cells of its reset that another reset
-  /// may contradict.
-  template <class F>
-  void for_each_write(const Rule& rule, F&& f) const {
-    for (const Write& write : rule.writes) f(thing_of(write.cell), write.value > 0.0f, write.value < 0.0f);
-    for (const std::uint32_t group : rule.clears) f(thing_of_group(group), false, true);
-    if (!rule.reset) return;
-    for (const CellId cell : reset_) {
-      const float value = program::net_value(program_, subject_.group_of, rule, cell).value_or(0.0f);
-      f(thing_of(cell), value > 0.0f, value < 0.0f);
-    }
-  }
-
-  /// Calls `f(rule, thing, raises, lowers)` for all writes of rules in [begin, end), except rules that the compiler made.
+  /// Calls `f(rule, thing, raises, lowers)` for all that rules in [begin, end) write by name or clear, except rules that the compiler made.
   template <class F>
   void for_each_write_of(std::uint32_t begin, std::uint32_t end, F&& f) const {
     for (std::uint32_t i = begin; i < end; ++i) {
-      if (Subject::generated(program_.rules[i])) continue;
-      for_each_write(program_.rules[i], [&](std::uint32_t thing, bool raises, bool lowers) { f(i, thing, raises, lowers); });
+      const Rule& rule = program_.rules[i];
+      if (Subject::generated(rule)) continue;
+      for (const Write& write : rule.writes) f(i, thing_of(write.cell), write.value > 0.0f, write.value < 0.0f);
+      for (const std::uint32_t group : rule.clears) f(i, thing_of_group(group), false, true);
     }
   }
 
-  /// Finds what rules with `reset` also write in this level: another reset puts the same cells back.
-  void find_reset(std::uint32_t begin, std::uint32_t end) {
-    reset_.clear();
+  /// Finds what some rules with `reset` write in this level and others only put back: see note [put back].
+  void find_put_back(std::uint32_t begin, std::uint32_t end) {
+    std::vector<std::uint32_t> cleared;
+    std::vector<CellId> written;   // without the members of groups that the same rule clears
+    resets_.clear();
     for (std::uint32_t i = begin; i < end; ++i) {
-      if (!program_.rules[i].reset) continue;
-      for (const Write& write : program_.rules[i].writes) reset_.push_back(write.cell);
+      const Rule& rule = program_.rules[i];
+      if (!rule.reset) continue;
+      resets_.push_back(i);
+      cleared.insert(cleared.end(), rule.clears.begin(), rule.clears.end());
+      for (const Write& write : rule.writes) {
+        if (!std::ranges::binary_search(rule.clears, subject_.group_of[program::index(write.cell)])) written.push_back(write.cell);
+        reset_.push_back(write.cell);
+      }
     }
     source::sort_unique(reset_);
+    std::ranges::sort(cleared);
+    std::ranges::sort(written);
+    for (const CellId cell : reset_) {
+      const auto by_name = std::ranges::equal_range(written, cell).size(), with_group = std::ranges::equal_range(cleared, subject_.group_of[program::index(cell)]).size();
+      const float back = program_[cell].keep ? 0.0f : program_[cell].initial;
+      if (by_name + with_group == resets_.size() || back == 0.0f) continue;
+      put_back_[thing_of(cell)] |= back > 0.0f ? kRaised : kLowered;
+      if (back > 0.0f) put_up_.emplace(thing_of(cell), cell);
+    }
   }
 
   /// Most things are contested by nobody. Those are sorted out first, with a few bits for each thing.
   void search_level(std::uint32_t begin, std::uint32_t end) {
-    find_reset(begin, end);
-    constexpr std::uint8_t kRaised = 1, kLowered = 2, kContested = kRaised | kLowered;
+    find_put_back(begin, end);
+    for (const CellId cell : reset_) contested_[thing_of(cell)] |= put_back_[thing_of(cell)];
     for_each_write_of(begin, end, [&](std::uint32_t, std::uint32_t thing, bool raises, bool lowers) {
       contested_[thing] = static_cast<std::uint8_t>(contested_[thing] | (raises ? kRaised : 0) | (lowers ? kLowered : 0));
     });
@@ -121,17 +138,22 @@ class ConflictQuestions {
     for_each_write_of(begin, end, [&](std::uint32_t rule, std::uint32_t thing, bool raises, bool lowers) {
       if (contested_[thing] != kContested || !demands(rule).possible) return;
       Contest& contest = contests[thing];
-      if (contest.writers.empty() || contest.writers.back().rule != rule) contest.writers.push_back({rule, false});
+      const std::uint8_t back = program_.rules[rule].reset ? put_back_[thing] : 0;
+      if (contest.writers.empty() || contest.writers.back().rule != rule) contest.writers.push_back({rule, (back & kRaised) != 0});
       contest.writers.back().raises = contest.writers.back().raises || raises;
-      contest.raised = contest.raised || raises;
-      contest.lowered = contest.lowered || lowers;
+      contest.raised = contest.raised || raises || (back & kRaised) != 0;
+      contest.lowered = contest.lowered || lowers || (back & kLowered) != 0;
     });
     for (const auto& [thing, contest] : contests) {
       if (contest.raised && contest.lowered && contest.writers.size() > 1) search_contest(thing, contest.writers);
+      if (put_back_[thing] != 0) search_put_back(thing, contest.writers);
     }
     if (!gave_up_.empty()) report_incomplete(program_.rules[begin].level, gave_up_);
     gave_up_ = {};
-    for_each_write_of(begin, end, [&](std::uint32_t, std::uint32_t thing, bool, bool) { contested_[thing] = 0; });
+    for_each_write_of(begin, end, [&](std::uint32_t, std::uint32_t thing, bool, bool) { contested_[thing] = put_back_[thing] = 0; });
+    reset_.clear();
+    put_up_.clear();
+    kept_apart_.reset();
     demands_.clear();
     demanded_ = 0;
   }
@@ -144,6 +166,13 @@ class ConflictQuestions {
     demanded_ += at->second.each.size();
     return at->second;
   }
+
+  /// Writers by the member of `choice` that they demand, and those that demand none.
+  struct Buckets {
+    std::optional<std::uint32_t> choice;
+    std::map<std::uint32_t, std::vector<Writer>> by_member;
+    std::vector<Writer> unkeyed;
+  };
 
   /// The exclusive choice that leaves the fewest pairs to compare, and how many pairs; none if no rule demands a member of one.
   struct Key {
@@ -181,29 +210,63 @@ class ConflictQuestions {
     const Key key = best_key(writers);
     if (key.pairs > kMostPairs) return report_incomplete(program_.rules[writers.front().rule].level, fmt::format("too many of them write `{}`", name_of(thing)));
     if (pairs_ + key.pairs > kMostPairsInAll) {
-      gave_up_ = "too many of them write the same cells";
+      gave_up_ = kTooMany;
       return;
     }
     pairs_ += key.pairs;
-    reset_here_.clear();
-    std::ranges::copy_if(reset_, std::back_inserter(reset_here_), [&](CellId cell) { return thing_of(cell) == thing; });
-    std::map<std::uint32_t, std::vector<Writer>> buckets;
-    std::vector<Writer> unkeyed;
-    for (const Writer& writer : writers) {
-      const std::vector<Holder>& holders = demands(writer.rule).holders;
-      const auto holder =
-          std::find_if(holders.begin(), holders.end(), [&](const Holder& h) { return h.choice == key.choice; });
-      (holder == holders.end() ? unkeyed : buckets[holder->variable]).push_back(writer);
-    }
-    for (const auto& [member, bucket] : buckets) {
+    const Buckets buckets = in_buckets(writers, key);
+    for (const auto& [member, bucket] : buckets.by_member) {
       compare_all(thing, bucket);
       for (const Writer& keyed : bucket) {
-        for (const Writer& free : unkeyed) {
+        for (const Writer& free : buckets.unkeyed) {
           if (keyed.raises || free.raises) compare(thing, std::min(keyed.rule, free.rule), std::max(keyed.rule, free.rule));
         }
       }
     }
-    compare_all(thing, unkeyed);
+    compare_all(thing, buckets.unkeyed);
+  }
+
+  [[nodiscard]] Buckets in_buckets(const std::vector<Writer>& writers, const Key& key) {
+    Buckets buckets{key.choice, {}, {}};
+    for (const Writer& writer : writers) {
+      const auto member = demanded_of(writer.rule, key.choice);
+      (member ? buckets.by_member[*member] : buckets.unkeyed).push_back(writer);
+    }
+    return buckets;
+  }
+
+  /// The member of the choice that the rule demands.
+  [[nodiscard]] std::optional<std::uint32_t> demanded_of(std::uint32_t rule, const std::optional<std::uint32_t>& choice) {
+    const std::vector<Holder>& holders = demands(rule).holders;
+    const auto holder = std::ranges::find_if(holders, [&](const Holder& h) { return h.choice == choice; });
+    return holder == holders.end() ? std::nullopt : std::optional(holder->variable);
+  }
+
+  /// Each reset that writes the thing with the resets that may put it back. See note [put back].
+  void search_put_back(std::uint32_t thing, const std::vector<Writer>& writers) {
+    if (!kept_apart_) {
+      std::vector<Writer> resets;
+      for (const std::uint32_t rule : resets_) {
+        if (demands(rule).possible) resets.push_back({rule, true});
+      }
+      kept_apart_ = in_buckets(resets, best_key(resets));
+    }
+    const auto compare_with = [&](const Writer& writer, const std::vector<Writer>& others) {
+      pairs_ += others.size();
+      for (const Writer& other : others) {
+        if (other.rule != writer.rule) compare(thing, std::min(writer.rule, other.rule), std::max(writer.rule, other.rule));
+      }
+    };
+    for (const Writer& writer : writers) {
+      if (!program_.rules[writer.rule].reset || (!writer.raises && (put_back_[thing] & kRaised) == 0)) continue;
+      if (pairs_ > kMostPairsInAll) gave_up_ = kTooMany;
+      if (!gave_up_.empty()) return;
+      const auto member = demanded_of(writer.rule, kept_apart_->choice);
+      for (const auto& [of, bucket] : kept_apart_->by_member) {
+        if (!member || *member == of) compare_with(writer, bucket);
+      }
+      compare_with(writer, kept_apart_->unkeyed);
+    }
   }
 
   /// Each with all later ones, but those that do not raise with those that do only.
@@ -263,12 +326,12 @@ class ConflictQuestions {
     return Disagreement{*x, *y};
   }
 
-  /// A cell of this contest that one of two resets raises and the other lowers, perhaps only by putting it back.
-  [[nodiscard]] std::optional<Disagreement> between_resets(const Rule& a, const Rule& b) const {
-    for (const CellId cell : reset_here_) {
-      const float x = program::net_value(program_, subject_.group_of, a, cell).value_or(0.0f);
-      const float y = program::net_value(program_, subject_.group_of, b, cell).value_or(0.0f);
-      if (x * y < 0.0f) return Disagreement{cell, CellId::kNone};
+  /// A cell of the thing that one of two resets puts back to high and the other lowers.
+  [[nodiscard]] std::optional<Disagreement> between_resets(std::uint32_t thing, const Rule& a, const Rule& b) const {
+    for (auto [at, end] = put_up_.equal_range(thing); at != end; ++at) {
+      const float x = program::net_value(program_, subject_.group_of, a, at->second).value_or(0.0f);
+      const float y = program::net_value(program_, subject_.group_of, b, at->second).value_or(0.0f);
+      if (x * y < 0.0f) return Disagreement{at->second, CellId::kNone};
     }
     return std::nullopt;
   }
@@ -291,49 +354,14 @@ class ConflictQuestions {
       if (about && about->other != CellId::kNone) std::swap(about->cell, about->other);
     }
     if (!about) about = raised_apart(thing, a, b);
-    if (!about && a.reset) about = between_resets(a, b);
-    if (!about || fired_before(a, b) || fired_before(b, a) || !can_fire_together(a, b)) return;
+    if (!about && a.reset) about = between_resets(thing, a, b);
+    if (!about || apart_in_time(subject_, a, b) || !can_fire_together(a, b)) return;
     Finding& finding = known != found_.end() ? known->second : found_.emplace(families, Finding{RuleId{first}, RuleId{second}, *about, {}}).first->second;
     finding.pairs.emplace(first, second);
   }
 
-  /// Whether `rule` has fired before `timed` can: all that `rule` asks for must have held for a while for `timed` to fire, so it held on the
-  /// tick before, when `rule` fired (`when F`, `when F for 1 s`). Not if `rule` writes what it asks for, since then it may be armed again.
-  [[nodiscard]] bool fired_before(const Rule& rule, const Rule& timed) const {
-    if (rule.mode != program::Mode::kWhen) return false;
-    std::set<program::CondId> held;
-    for (const program::CondId part : program::conjuncts(program_, timed.condition)) {
-      const program::Cond& cond = program_[part];
-      if (cond.op != program::Cond::Op::kFor || cond.duration_us == 0) continue;
-      for (const program::CondId of_it : program::conjuncts(program_, cond.children.front())) held.insert(of_it);
-    }
-    const std::vector<program::CondId> asked = program::conjuncts(program_, rule.condition);
-    return !held.empty() && std::all_of(asked.begin(), asked.end(), [&](program::CondId part) { return held.contains(part) && !asks_what_it_writes(rule, part); });
-  }
-
-  [[nodiscard]] bool asks_what_it_writes(const Rule& rule, program::CondId condition) const {
-    const program::Cond& cond = program_[condition];
-    if (!program::has_parts(cond.op)) return program::net_value(program_, subject_.group_of, rule, cond.cell).has_value();
-    return std::any_of(cond.children.begin(), cond.children.end(), [&](program::CondId part) { return asks_what_it_writes(rule, part); });
-  }
-
-  /// Whether the rule fires on the first tick and never again: it asks for a satellite that begins high, lowers it, and nothing raises it.
-  [[nodiscard]] bool fires_once(const Rule& rule) const {
-    const program::Cond& asked = program_[rule.condition];
-    const bool high = asked.op == program::Cond::Op::kIs && asked.term == program::Term::kHigh && static_cast<double>(program_[asked.cell].initial) >= program_.settings.firing;
-    if (!high || subject_.raiser[program::index(asked.cell)] != RuleId::kNone || std::ranges::any_of(program_.rules, &Rule::reset)) return false;
-    return program::net_value(program_, subject_.group_of, rule, asked.cell).value_or(1.0f) < 0.0f;
-  }
-
-  /// The first tick makes no events.
-  [[nodiscard]] bool waits_for_event(const Rule& rule) const {
-    const std::vector<program::CondId> asked = program::conjuncts(program_, rule.condition);
-    return std::ranges::any_of(asked, [this](program::CondId part) { return program_[part].op == program::Cond::Op::kEvent || program_[part].op == program::Cond::Op::kLost; });
-  }
-
   /// A question that cannot be settled within the budget counts as yes.
   [[nodiscard]] bool can_fire_together(const Rule& a, const Rule& b) {
-    if ((fires_once(a) && waits_for_event(b)) || (fires_once(b) && waits_for_event(a))) return false;
     const Goal goals[] = {{a.condition, true}, {b.condition, true}};
     return satisfier_.together(goals, a.level) != Answer::kNo;
   }
@@ -344,8 +372,11 @@ class ConflictQuestions {
   std::unordered_map<std::uint32_t, Demands> demands_;   // of rules of one level; looked up, never iterated
   std::size_t demanded_ = 0;                             // the number of single demands in it
   std::vector<std::uint8_t> contested_;                  // by thing: whether a rule of the level raises it, and lowers it
-  std::vector<CellId> reset_;                            // ascending: what rules with `reset` also write in this level
-  std::vector<CellId> reset_here_;                       // those of this contest
+  std::vector<std::uint8_t> put_back_;                   // by thing: the same for resets that do not write it
+  std::vector<std::uint32_t> resets_;                    // rules of the level with `reset`
+  std::vector<CellId> reset_;                            // ascending: what they also write
+  std::multimap<std::uint32_t, CellId> put_up_;          // by thing: those cells that a reset puts back to high
+  std::optional<Buckets> kept_apart_;                    // `resets_`, once they are asked for
   std::uint64_t pairs_ = 0;
   std::string_view gave_up_;                             // why conflicts of this level that may be left are not looked for; empty if none are
   Findings found_;
