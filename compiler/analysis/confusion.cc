@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "compiler/analysis/definitions.h"
 #include "compiler/fuzzy/certainty.h"
@@ -22,6 +24,7 @@ using program::PerceptId;
 using program::Program;
 
 constexpr std::size_t kGrid = 400;
+constexpr std::uint64_t kMostWork = 1'000'000, kOfNumber = 32;   // pairs of `and`s; a search over the values of a number is as dear as so many
 
 /// The highest certainty that one reading can give to all of some literals at once, and at which value.
 struct Best { double degree = -2.0; std::string where; };
@@ -53,6 +56,7 @@ struct Confusions::Impl {
     Best best{asked.least, {}};
     for (const Conjunction& x : a) {
       for (const Conjunction& y : b) {
+        if (++work > kMostWork) return best;
         Best here = most(joined(x, y), Asked{best.degree, asked.enough});
         if (here.degree > best.degree) best = std::move(here);
         if (best.degree > asked.enough) return best;
@@ -61,10 +65,7 @@ struct Confusions::Impl {
     return best;
   }
 
-  Best most(Conjunction all, Asked asked) {
-    std::stable_sort(all.begin(), all.end(), [](const Literal& a, const Literal& b) {
-      return a.given != b.given ? b.given : a.subject < b.subject;
-    });
+  Best most(const Conjunction& all, Asked asked) {
     Best best{1.0, {}};
     for (std::size_t begin = 0; begin < all.size();) {
       std::size_t end = begin;
@@ -85,24 +86,38 @@ struct Confusions::Impl {
     const auto [known, fresh] = exclusives.try_emplace({&a, &b, limit});
     if (!fresh) return known->second;
     const Asked asked{limit - 1.0 - kRounding, limit - 1.0};
-    const auto apart = [&](Conjunction both) { return torn(both) || most(std::move(both), asked).degree <= asked.least; };
+    const auto apart = [&](const Conjunction& x, const Conjunction& y) {
+      if (!share_subject(x, y) || ++work > kMostWork) return false;
+      const Conjunction both = joined(x, y);
+      return torn(both) || most(both, asked).degree <= asked.least;
+    };
     return known->second = std::all_of(a.terms.begin(), a.terms.end(), [&](const Conjunction& x) {
-      return std::all_of(b.terms.begin(), b.terms.end(), [&](const Conjunction& y) { return apart(joined(x, y)); });
+      return std::all_of(b.terms.begin(), b.terms.end(), [&](const Conjunction& y) { return apart(x, y); });
     });
   }
 
   [[nodiscard]] static Conjunction joined(const Conjunction& x, const Conjunction& y) {
-    Conjunction both = x;
-    both.insert(both.end(), y.begin(), y.end());
+    Conjunction both;
+    both.reserve(x.size() + y.size());
+    std::ranges::set_union(x, y, std::back_inserter(both));
     return both;
   }
 
-  /// Whether it has a part and its opposite.
+  /// Whether both ask for a reading, or a fact of the host. What only one asks for cannot make them exclusive.
+  [[nodiscard]] static bool share_subject(const Conjunction& x, const Conjunction& y) {
+    const auto subject = [](const Literal& literal) { return std::pair(literal.given, literal.subject); };
+    auto a = x.begin();
+    for (auto b = y.begin(); a != x.end() && b != y.end(); ++(subject(*a) < subject(*b) ? a : b)) {
+      if (subject(*a) == subject(*b)) return true;
+    }
+    return false;
+  }
+
+  /// Whether it has a part and its opposite, which then stand side by side.
   [[nodiscard]] static bool torn(const Conjunction& all) {
-    return std::any_of(all.begin(), all.end(), [&](Literal opposite) {
-      opposite.negated = !opposite.negated;
-      return std::find(all.begin(), all.end(), opposite) != all.end();
-    });
+    return std::ranges::adjacent_find(all, [](const Literal& a, const Literal& b) {
+             return a.negated != b.negated && std::tie(a.given, a.subject, a.prototype, a.text) == std::tie(b.given, b.subject, b.prototype, b.text);
+           }) != all.end();
   }
 
   Best most_of(std::span<const Literal> same, Asked asked) {
@@ -193,8 +208,10 @@ struct Confusions::Impl {
   }
 
   Best most_of_number(std::span<const Literal> same, const program::Sensor& sensor, Asked asked) {
+    work += kOfNumber;
     const std::vector<double> corners = corners_of(same, sensor);
     for (const double corner : corners) {
+      if (asked.enough >= 1.0) break;   // nothing is more
       const double here = std::clamp(corner, sensor.low, sensor.high), least = least_at(same, sensor, here, asked.enough);
       if (least > asked.enough) return {least, where(same, sensor, here)};
     }
@@ -242,7 +259,7 @@ struct Confusions::Impl {
     const auto [known, fresh] = followed.try_emplace({&narrow, &wide});
     if (!fresh) return known->second;
     const auto serves = [&](const Conjunction& x, const Conjunction& y) {
-      return std::all_of(y.begin(), y.end(), [&](const Literal& of_wide) {
+      return ++work <= kMostWork && std::all_of(y.begin(), y.end(), [&](const Literal& of_wide) {
         return std::any_of(x.begin(), x.end(), [&](const Literal& of_narrow) { return follows(of_narrow, of_wide); });
       });
     };
@@ -288,6 +305,7 @@ struct Confusions::Impl {
 
   const Program& program;
   Definitions definitions;
+  std::uint64_t work = 0;   // so far; above kMostWork nothing is compared any more
   std::map<std::tuple<const Definition*, const Definition*, double>, Best> compared;   // looked up, never iterated
   std::map<std::tuple<const Definition*, const Definition*, double>, bool> exclusives;  // looked up, never iterated
   std::map<std::pair<const Definition*, const Definition*>, bool> followed;             // looked up, never iterated
@@ -311,7 +329,9 @@ Confusion Confusions::between(CellId first, CellId second, double least) {
 }
 
 Surest Confusions::surest(CellId fact, double enough) {
+  const std::uint64_t before = std::exchange(impl_->work, 0);   // some 500 at most: as many as the `and`s of the definition
   Best best = impl_->most(impl_->definitions.of(fact, false).terms, Disjunction(1), {.enough = enough});
+  impl_->work = before;
   return {best.degree, std::move(best.where)};
 }
 
@@ -325,6 +345,8 @@ bool Confusions::exclusive(CellId first, CellId second, double limit) {
   Definitions& definitions = impl_->definitions;
   return definitions.place(first) && definitions.place(second) && impl_->exclusive(definitions.of(first, false), definitions.of(second, false), limit);
 }
+
+bool Confusions::tired() const { return impl_->work > kMostWork; }
 
 bool Confusions::looked_into(CellId fact) {
   return !impl_->definitions.of(fact, false).cut;

@@ -51,6 +51,8 @@ class Confusions {
   /// Whether no readings, fresh or old, ever give both facts a certainty of `limit` or more: see note [exclusive facts]. `false` may also mean
   /// that it is not known. Facts of the host are exclusive with nothing.
   [[nodiscard]] bool exclusive(program::CellId first, program::CellId second, double limit);
+  /// Whether comparing has taken so long that nothing is compared any more: `between` may find too little, and nothing is a special case or exclusive.
+  [[nodiscard]] bool tired() const;
   /// Whether all `and`s of the fact's definition are examined.
   [[nodiscard]] bool looked_into(program::CellId fact);
   /// Whether some reading takes part in both definitions.

@@ -1,5 +1,8 @@
 #include "compiler/analysis/definitions.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace kb::analysis {
 
 using program::CellId;
@@ -54,8 +57,10 @@ Disjunction Definitions::product(const Disjunction& a, const Disjunction& b) {
         cut_ = true;
         return all;
       }
-      all.push_back(x);
-      all.back().insert(all.back().end(), y.begin(), y.end());
+      Conjunction both;
+      std::ranges::set_union(x, y, std::back_inserter(both));
+      if (both.size() <= kMostParts) all.push_back(std::move(both));
+      else cut_ = true;
     }
   }
   return all;

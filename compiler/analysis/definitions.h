@@ -23,10 +23,10 @@ struct Literal {
   bool negated = false;
   friend auto operator<=>(const Literal&, const Literal&) = default;
 };
-using Conjunction = std::vector<Literal>;
+using Conjunction = std::vector<Literal>;   ///< ascending, each once
 using Disjunction = std::vector<Conjunction>;
 
-/// The definition of a fact, or of its opposite, as an `or` of `and`s; `cut`: it has more of them than are looked at.
+/// The definition of a fact, or of its opposite, as an `or` of `and`s; `cut`: it has more of them, or longer ones, than are looked at.
 struct Definition {
   Disjunction terms;
   bool cut = false;
@@ -35,8 +35,8 @@ struct Definition {
 
 class Definitions {
  public:
-  /// At most so many `and`s of a definition are kept, and looked into.
-  static constexpr std::size_t kMostTerms = 512;
+  /// At most so many `and`s of a definition are kept, and looked into, and only those of at most so many parts.
+  static constexpr std::size_t kMostTerms = 512, kMostParts = 256;
 
   /// `program` must outlive it.
   explicit Definitions(const program::Program& program);
@@ -53,15 +53,14 @@ class Definitions {
   using Polar = std::pair<program::CellId, bool>;   // a fact, or its opposite
 
   Disjunction expand(program::PerceptId id, bool negated);
-  Disjunction product(const Disjunction& a, const Disjunction& b);
-  void find_parts(program::PerceptId id, bool negated, std::vector<Polar>& found) const;
+  Disjunction product(const Disjunction& a, const Disjunction& b);  void find_parts(program::PerceptId id, bool negated, std::vector<Polar>& found) const;
   void find_facts(program::PerceptId id, std::vector<program::CellId>& found) const;
 
   const program::Program& program_;
   std::map<program::CellId, std::size_t> place_;
   std::set<Definition> definitions_;   // each once
   std::map<Polar, const Definition*> expanded_;
-  bool cut_ = false;                   // the definition that is being expanded has more `and`s than are kept
+  bool cut_ = false;                   // the definition that is being expanded has more `and`s than are kept, or longer ones
 };
 
 }  // namespace kb::analysis

@@ -1,6 +1,7 @@
 // Reports rules that take a lazy fact for absent while nobody has looked at it. Such a fact is perceived only while a rule waits for it, and
 // is 0 and unseen otherwise.
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -122,10 +123,15 @@ class Lazy {
   /// Whether the fact is certainly looked at, by what is known.
   [[nodiscard]] bool awake(CellId fact, const Known& known) {
     if (users_.empty()) find_users();
-    const std::size_t place = place_of_.at(fact);
-    const auto& waits = alternatives_[place];
-    return std::any_of(waits.begin(), waits.end(), [&](const auto& demands) { return follows(demands, known); }) ||
-           std::any_of(users_[place].begin(), users_[place].end(), [&](CellId user) { return !is_lazy(user) || awake(user, known); });
+    std::set<CellId> found{fact};
+    for (std::vector<CellId> todo{fact}; !todo.empty();) {
+      if (!is_lazy(todo.back())) return true;
+      const std::size_t place = place_of_.at(todo.back());
+      todo.pop_back();
+      if (std::ranges::any_of(alternatives_[place], [&](const auto& demands) { return follows(demands, known); })) return true;
+      std::ranges::copy_if(users_[place], std::back_inserter(todo), [&](CellId user) { return found.insert(user).second; });
+    }
+    return false;
   }
 
   /// Whether the condition holds while the lazy facts that nobody waits for are 0. Of all else nothing is known.

@@ -62,7 +62,7 @@ void diagnose_confusable(const model::Model& model, const Program& program, Conf
   std::size_t pairs = 0, of_numbers = 0;
   for (const program::Perceived& one : perceived) {
     if (!confusions.looked_into(one.fact)) {
-      diagnostics.report(Kind::kConfusionOfMany, one.span, {program[one.fact].name, std::to_string(Definitions::kMostTerms)});
+      diagnostics.report(Kind::kConfusionOfMany, one.span, {program[one.fact].name, std::to_string(Definitions::kMostTerms), std::to_string(Definitions::kMostParts)});
     }
   }
   for (std::size_t k = 0; k < perceived.size(); ++k) {
@@ -72,7 +72,7 @@ void diagnose_confusable(const model::Model& model, const Program& program, Conf
       if (diagnostics.full(Kind::kConfusable)) return;
       const CellId a = perceived[i].fact;
       const bool numbers = number && confusions.reads_number(a);
-      if (++pairs > kMostConfusablePairs || (numbers && ++of_numbers > kMostPairsOfNumbers)) {
+      if (++pairs > kMostConfusablePairs || (numbers && ++of_numbers > kMostPairsOfNumbers) || confusions.tired()) {
         diagnostics.report(Kind::kConfusionNotAsked, perceived[k].span, {std::to_string(pairs - 1), program[b].name});
         return;
       }

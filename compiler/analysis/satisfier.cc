@@ -113,6 +113,7 @@ bool Satisfier::may_be_sure(std::uint32_t variable) {
   const CellId fact{static_cast<std::uint32_t>(place)};
   const double limit = sighting ? program::thresholds(program_[fact]).attended : program_.settings.firing;
   if (limit < 0.0) return true;
+  steps_ += sure_.size();
   for (const Sure& other : sure_) {
     if (other.fact != fact && confusions_->exclusive(std::min(fact, other.fact), std::max(fact, other.fact), std::min(limit, other.limit))) return false;
   }
@@ -156,7 +157,7 @@ bool Satisfier::assume_held(CondId timer) {
 /// Assumes a goal and everything that follows from it directly. Goals that leave a choice go to `open_`.
 bool Satisfier::assume(Goal first) {
   pending_.assign(1, first);
-  while (!pending_.empty()) {
+  while (!pending_.empty() && !exhausted()) {   // a part may stand in many others
     const Goal goal = pending_.back();
     pending_.pop_back();
     ++steps_;
@@ -204,9 +205,10 @@ Satisfier::Truth Satisfier::truth_of_several(const Cond& cond) {
   return decisive == Truth::kTrue ? Truth::kFalse : Truth::kTrue;
 }
 
-/// Recursion as deep as conditions nest, which is limited.
+/// Recursion as deep as conditions nest, which is limited; how often a part is visited is not.
 Satisfier::Truth Satisfier::truth(CondId condition) {
   ++steps_;
+  if (exhausted()) return Truth::kOpen;
   const Cond& cond = program_[condition];
   switch (cond.op) {
     case Cond::Op::kAnd:
