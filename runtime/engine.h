@@ -108,8 +108,14 @@ class Engine {
   static constexpr bool kStraight = false;
 #endif
 
-  /// Whether rules are masks: see note [masks].
-  static constexpr bool kMasked = kStraight && fits_masks(kShape);
+  /// Whether rules are masks: see note [masks], see note [planes].
+  static constexpr bool kMasked = [] {
+    if constexpr (kStraight) return S::kMaskPlanes != 0;
+    else return false;
+  }();
+
+  /// Whether timers are, too.
+  static constexpr bool kMaskedTimers = kMasked && kShape.timers <= kWordBits;
 
   constexpr Engine(T tables, S& state) : t(tables), s(state) {}
 
@@ -130,7 +136,10 @@ class Engine {
     return true;
   }
   /// Runs the tick, whatever happens on it.
-  void infer(std::uint32_t dt_us);
+  void infer(std::uint32_t dt_us) {
+    if constexpr (kMasked) infer_in(s, dt_us);
+    else infer_here(dt_us);
+  }
   /// Sets a satellite between two ticks, for tests and for restoring a saved state. Other members of an exclusive group keep their values.
   /// NaN is taken as 0; values outside [-1, 1] are clamped.
   void poke(std::uint32_t satellite, float value) {
@@ -149,6 +158,8 @@ class Engine {
   // leaves no code. A function is written out only if that saves more than its code costs: an event tick visits most code once, so
   // instructions that are not in the first cache cost more than those that are left out. The functions that such a function
   // consists of are `always_inline`, since a call would hide the constant; but `_at` functions call each other, so each exists once.
+  // Functions whose name ends in `_in` are static and take the state: `this` would be an address on the stack, from which the state's
+  // address is read anew after each call.
 
   /// Calls `kMember(i, a...)`, i < kCount: the copy written out for `i` if there is one.
   template <auto kMember, std::uint32_t kCount, class... A>
@@ -186,6 +197,7 @@ class Engine {
   void settle();
   [[nodiscard]] bool nodes_changed() const;
   void settle_changed_nodes();
+  [[gnu::noinline]] static void settle_nodes_in(S& s) { Engine(T{}, s).settle_node_word(0); }
   void settle_node_word(std::uint32_t word);
   void set_terms(std::uint32_t cell, float value);
   void set_satellite(std::uint32_t cell, float value);
@@ -204,28 +216,40 @@ class Engine {
 
   // engine_levels.h: the tick
   void clear();
+  [[gnu::noinline]] static void infer_in(S& s, std::uint32_t dt_us) { Engine(T{}, s).infer_here(dt_us); }
+  void infer_here(std::uint32_t dt_us);
+  [[nodiscard]] bool take_masked(std::uint32_t fact, float raw);
   void notice();
+  void notice_masked();
   void forget_events();
   void pass(std::uint32_t level);
   [[nodiscard]] bool asked(const Level<J>& level) const;
   void evaluate_level(std::uint32_t level) { at<&Engine::evaluate_level_at, kShape.levels>(level); }
   void evaluate_level_at(std::uint32_t level);
-  void run_word(std::uint32_t level) { at<&Engine::run_word_at, kShape.levels>(level); }
-  void run_word_at(std::uint32_t level);
+  Word evaluate_word(std::uint32_t word);
+  void run_masked(std::uint32_t level);
+  [[nodiscard]] Word holding(std::uint32_t word) const;
+  Word firing(std::uint32_t word);
+  void note_fired(std::uint32_t word, Word fire);
+  void decide();
+  void finish();
+  void note_turned();
+  [[nodiscard]] bool noted_turned(std::uint32_t satellite) const;
+  [[nodiscard]] bool holds(std::uint32_t rule) const;
+
+  // engine_timers.h
   [[nodiscard]] bool timed(const Level<J>& level) const;
   void run_timers(std::uint32_t level) { at<&Engine::run_timers_at, kShape.levels>(level); }
   void run_timers_at(std::uint32_t level);
   void run_stage(const Stage<J>& stage);
+  void run_stage_masked(const Stage<J>& stage);
   void expire(const Stage<J>& stage);
   void sample(std::uint32_t timer);
   void link(std::uint32_t timer);
   void link_since(std::uint32_t timer, std::int64_t start_us);
   void unlink(std::uint32_t timer);
-  Word evaluate_word(std::uint32_t word);
-  void decide();
-  void finish();
   [[nodiscard]] std::int64_t next_due() const;
-  [[nodiscard]] bool holds(std::uint32_t rule) const;
+  [[nodiscard]] std::int64_t next_timer_due() const;
 
   // engine_access.h: what differs in compact form
   [[nodiscard]] bool literal(std::uint32_t literal) const;
@@ -267,9 +291,14 @@ class Engine {
   void commit(std::uint32_t level, std::uint32_t first);
   void commit_many(std::uint32_t level, std::uint32_t first);
   [[nodiscard]] bool agree(std::uint32_t first);
-  void apply_masks(std::uint32_t rule);
-  void turn_satellite(std::uint32_t satellite, bool up, float old) { at<&Engine::turn_satellite_at, kShape.satellites>(satellite, up, old); }
-  void turn_satellite_at(std::uint32_t satellite, bool up, float old);
+  void run_word(std::uint32_t level);
+  void want_all(std::uint32_t word, Word fire);
+  [[gnu::noinline]] static void commit_word_in(S& s, std::uint32_t level, std::uint32_t word, Word fire) { Engine(T{}, s).commit_word(level, word, fire); }
+  void commit_word(std::uint32_t level, std::uint32_t word, Word fire);
+  void turn_satellites(std::uint32_t w, Mask up, Mask down);
+  void turn_satellite(std::uint32_t satellite, float value, std::int32_t change) { at<&Engine::turn_satellite_at, kShape.satellites>(satellite, value, change); }
+  void turn_satellite_at(std::uint32_t satellite, float value, std::int32_t change);
+  void turn_graded(std::uint32_t w, Mask up, Mask down);
   template <class F>
   void each_written(std::uint32_t first, F&& f) const;
   void forget_written(std::uint32_t first);
@@ -324,3 +353,4 @@ class Engine {
 #include "engine_commit.h"
 #include "engine_flips.h"
 #include "engine_levels.h"
+#include "engine_timers.h"

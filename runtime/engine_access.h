@@ -9,28 +9,24 @@ namespace mts {
 
 template <class S, class T>
 inline bool Engine<S, T>::literal(std::uint32_t literal) const {
-  if constexpr (kCompact) return bits::test(s.truth_set, literal >> 1) != ((literal & 1u) != 0);
+  if constexpr (kCompact || kMasked) return bits::test(s.truth_set, literal >> 1) != ((literal & 1u) != 0);
   else return s.truth[literal];
 }
 
 template <class S, class T>
 inline bool Engine<S, T>::truth(std::uint32_t atom) const {
-  if constexpr (kCompact) return bits::test(s.truth_set, atom);
+  if constexpr (kCompact || kMasked) return bits::test(s.truth_set, atom);
   else return s.truth[2 * atom];
 }
 
 template <class S, class T>
 inline void Engine<S, T>::set_truth(std::uint32_t atom, bool now) {
-  if constexpr (kCompact) {
+  if constexpr (kCompact || kMasked) {
     if (now) bits::set(s.truth_set, atom);
     else bits::clear(s.truth_set, atom);
   } else {
     s.truth[2 * atom] = now;
     s.truth[2 * atom + 1] = !now;
-    if constexpr (kMasked) {
-      Mask& word = s.truth_mask[atom / kMaskBits];
-      word = now ? word | mask_of(atom) : word & ~mask_of(atom);
-    }
   }
 }
 

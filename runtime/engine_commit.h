@@ -105,63 +105,101 @@ inline void Engine<S, T>::apply(std::uint32_t rule) {
   }
 }
 
-/// Does what follows from a satellite's change from `old` to 1 (`up`) or to -1.
+/// Runs a level that is a single word: the set of fired rules is then a word, too.
 template <class S, class T>
-[[gnu::always_inline]] inline void Engine<S, T>::turn_satellite_at(std::uint32_t satellite, bool up, float old) {
-  const CellAtoms<J>& a = t->cell_atoms[shape().facts + satellite];
-  if (a.high != 0 && truth(a.high) != up) flip(a.high);
-  if (a.low != 0 && truth(a.low) == up) flip(a.low);
-  if (a.zero != 0 && truth(a.zero)) flip(a.zero);
-  if ((old >= t->firing) != up) attend(satellite, up);
-  if ((old == -1.0f) == up) note_live(satellite, up);
-}
-
-/// Runs a level that is a single word, with its rules as masks: the set of fired rules is then a word, too.
-template <class S, class T>
-[[gnu::always_inline]] inline void Engine<S, T>::run_word_at(std::uint32_t level) {
-  if (t->levels[level].first_word == t->levels[level].end_word) return;   // such a level needs no code
-  const std::uint32_t word = t->levels[level].first_word, base = t->word_rule[word], first = s.fired;
-  const Word fire = evaluate_word(word);
+[[gnu::always_inline]] inline void Engine<S, T>::run_word(std::uint32_t level) {
+  const std::uint32_t word = t->levels[level].first_word;
+  const Word fire = firing(word);
   if (fire == 0) return;
-  const bool plain = (fire & kMasksOf<typename T::Knowledge>.special[word]) == 0;
-  if (!plain || ((fire & (fire - 1u)) != 0 && !agree(first))) return commit(level, first);
-  for (Word left = fire; left != 0; left &= left - 1u) {
-    apply_masks(base + static_cast<std::uint32_t>(std::countr_zero(left)));
+  if (kMasksOf<typename T::Knowledge>.wants_only[word]) {
+    note_fired(word, fire);
+    want_all(word, fire);
+  } else {
+    commit_word_in(s, level, word, fire);
   }
-  settle();
   const Word again = fire & ~t->while_rules[word];
   if (again == 0) return;
   s.busy = true;
-  Word asked = s.rules[word].pending & again;
-  for (s.rules[word].pending &= ~again; asked != 0; asked &= asked - 1u) {
-    const auto i = static_cast<std::uint32_t>(std::countr_zero(asked));
-    if (!holds(base + i)) s.rules[word].done &= ~(Word{1} << i);
+  s.rules[word].done &= holding(word) | ~again;
+}
+
+/// Wants the strategies that the rules of a word want.
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::want_all(std::uint32_t word, Word fire) {
+  const std::uint32_t base = t->word_rule[word];
+  for (Word left = fire; left != 0; left &= left - 1u) {
+    const std::uint32_t wants = kMasksOf<typename T::Knowledge>.rule[base + static_cast<std::uint32_t>(std::countr_zero(left))].wants;
+    if (wants != 0) want(wants - 1u);
   }
 }
 
-/// Like `apply`, by masks.
+/// Carries out what the rules of a word write: by their masks, all at once, unless one of them resets, clears a group or writes another value,
+/// or they contradict each other.
 template <class S, class T>
-[[gnu::always_inline]] inline void Engine<S, T>::apply_masks(std::uint32_t rule) {
-  const auto& m = kMasksOf<typename T::Knowledge>.rule[rule];
-  for (std::uint32_t w = 0; w < masks_for(kShape.satellites); ++w) {
-    const Mask up = m.raised[w] & ~s.at_one[w], down = m.lowered[w] & ~s.at_minus_one[w];
-    if ((up | down) == 0) continue;
-    s.at_one[w] = (s.at_one[w] | up) & ~down;
-    s.at_minus_one[w] = (s.at_minus_one[w] | down) & ~up;
-    s.busy = true;
-    for (Mask left = up | down; left != 0; left &= left - 1u) {
-      const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-      const std::uint32_t satellite = w * kMaskBits + i;
-      const bool raise = (up >> i & 1u) != 0;
-      float& value = s.cf[shape().facts + satellite];
-      const float old = value;
-      note_touched(satellite, old);
-      value = raise ? 1.0f : -1.0f;
-      turn_satellite(satellite, raise, old);
-    }
+[[gnu::always_inline]] inline void Engine<S, T>::commit_word(std::uint32_t level, std::uint32_t word, Word fire) {
+  constexpr auto& all = kMasksOf<typename T::Knowledge>;
+  constexpr std::uint32_t kMasks = masks_for(kShape.satellites);
+  const std::uint32_t base = t->word_rule[word], first = s.fired;
+  const auto note = [&](Word left) {
+    const std::uint32_t rule = base + static_cast<std::uint32_t>(std::countr_zero(left));
+    s.fired_list[s.fired++] = static_cast<Ix>(rule);
+    return rule;
+  };
+  RuleMasks<kShape> sum = all.rule[note(fire)];
+  Mask both = fire & all.special[word];
+  for (Word left = fire & (fire - 1u); left != 0; left &= left - 1u) {
+    const auto& m = all.rule[note(left)];
+#pragma GCC unroll 4
+    for (std::uint32_t w = 0; w < kMasks; ++w) both |= (sum.raised[w] |= m.raised[w]) & (sum.lowered[w] |= m.lowered[w]);
+    sum.wants |= m.wants;   // kListed has all bits
   }
-  if (m.wants == kListed) apply(rule);
-  else if (m.wants != 0) want(m.wants - 1u);
+  if (both != 0 || sum.wants == kListed) [[unlikely]] return commit(level, first);
+#pragma GCC unroll 4
+  for (std::uint32_t w = 0; w < kMasks; ++w) turn_satellites(w, sum.raised[w] & ~s.at_one[w], sum.lowered[w] & ~s.at_minus_one[w]);
+  if (sum.wants != 0) want_all(word, fire);
+  settle();
+}
+
+/// Brings satellites of a mask to 1 (`up`) or to -1.
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::turn_satellites(std::uint32_t w, Mask up, Mask down) {
+  if ((up | down) == 0) return;
+  s.busy = true;
+  const Mask graded = (up | down) & ~(s.at_one[w] | s.at_minus_one[w]);
+  if (graded != 0) [[unlikely]] turn_graded(w, up & graded, down & graded);
+  s.at_one[w] = (s.at_one[w] | up) & ~down;
+  s.at_minus_one[w] = (s.at_minus_one[w] | down) & ~up;
+  for (Mask left = up & ~graded; left != 0; left &= left - 1u) {
+    turn_satellite(w * kMaskBits + static_cast<std::uint32_t>(std::countr_zero(left)), 1.0f, 1);
+  }
+  for (Mask left = down & ~graded; left != 0; left &= left - 1u) {
+    turn_satellite(w * kMaskBits + static_cast<std::uint32_t>(std::countr_zero(left)), -1.0f, -1);
+  }
+}
+
+/// Brings satellites between 1 and -1 to 1 (`up`) or to -1.
+template <class S, class T>
+[[gnu::noinline]] inline void Engine<S, T>::turn_graded(std::uint32_t w, Mask up, Mask down) {
+  for (Mask left = up | down; left != 0; left &= left - 1u) {
+    const std::uint32_t satellite = w * kMaskBits + static_cast<std::uint32_t>(std::countr_zero(left));
+    set_satellite(kShape.facts + satellite, (up & mask_of(satellite)) != 0 ? 1.0f : -1.0f);
+  }
+}
+
+/// Brings a satellite from -1 to 1 or from 1 to -1, with what follows from it. `change` is 1 or -1, as its new value. What is high and what is
+/// low both flip, and nothing is zero.
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::turn_satellite_at(std::uint32_t satellite, float value, std::int32_t change) {
+  const CellAtoms<J>& a = t->cell_atoms[shape().facts + satellite];
+  s.cf[shape().facts + satellite] = value;
+  if (a.high != 0) flip_at(a.high);
+  if (a.low != 0) flip_at(a.low);
+  for (std::uint32_t i = t->attends_begin[satellite]; i < t->attends_begin[satellite + 1]; ++i) {
+    const std::uint32_t fact = t->attends[i];
+    s.attended[fact] = static_cast<Ix>(s.attended[fact] + change);
+    recheck(fact);
+  }
+  note_live(satellite, change > 0);
 }
 
 /// The members of the large groups that the rule clears become -1, except those that a rule of this level writes itself.
@@ -218,6 +256,8 @@ inline void Engine<S, T>::rearm(std::uint32_t rule, Place at) {
   if (bad) {
     s.rules[at.word].done &= ~at.bit;
     ask(at.word, at.bit);
+  } else if constexpr (kMasked) {
+    if (!holds(rule)) s.rules[at.word].done &= ~at.bit;
   } else if ((s.rules[at.word].pending & at.bit) != 0) {
     s.rules[at.word].pending &= ~at.bit;
     if (!holds(rule)) s.rules[at.word].done &= ~at.bit;

@@ -8,6 +8,7 @@ namespace mts {
 /// Marks these rules of the word to be evaluated at their level.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::ask(std::uint32_t word, Word rules) {
+  if constexpr (kMasked) return;   // planes know
   s.rules[word].pending |= rules;
   if constexpr (kSummaries) {
     if (many_words() && rules != 0) bits::note_full(s.busy_sum, word, shape().words);
@@ -41,6 +42,11 @@ template <class S, class T>
 /// and so armed.
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::tell_readers(std::uint32_t atom, bool now) {
+  if constexpr (kMasked) {
+    constexpr const Planes& p = kPlanesOf<typename T::Knowledge>;
+    for (std::uint32_t i = p.begin[atom]; i < p.begin[atom + 1]; ++i) s.plane[p.rows[i].plane] ^= p.rows[i].rules;
+    return;
+  }
   const Atom<J>* const a = t->atoms + atom;
   const Readers<J>* const end = t->readers + a[1].readers;
   const Word waking = now ? ~Word{0} : Word{0};
@@ -105,7 +111,13 @@ template <class S, class T>
   } else {
     const Atom<J>* const a = t->atoms + atom;
     for (std::uint32_t i = a[0].parents; i < a[1].parents; ++i) count_in(t->parents[i], now);
-    for (std::uint32_t i = a[0].timers; i < a[1].timers; ++i) time(t->timer_inputs[i]);
+    if constexpr (kMaskedTimers) {
+      Word timers = 0;
+      for (std::uint32_t i = a[0].timers; i < a[1].timers; ++i) timers |= bits::mask(t->timer_inputs[i]);
+      s.timer_input ^= timers;
+    } else {
+      for (std::uint32_t i = a[0].timers; i < a[1].timers; ++i) time(t->timer_inputs[i]);
+    }
   }
 }
 
@@ -133,7 +145,11 @@ template <class S, class T>
 
 template <class S, class T>
 [[gnu::always_inline]] inline void Engine<S, T>::flip_at(std::uint32_t atom) {
-  if constexpr (kStraight) {   // here `now` becomes a constant, too
+  if constexpr (kMasked) {   // in either direction: see note [planes]
+    s.truth_set[atom / kWordBits] ^= bits::mask(atom);
+    tell_readers(atom, false);
+    count(atom, truth(atom));
+  } else if constexpr (kStraight) {   // here `now` becomes a constant, too
     if (truth(atom)) turn(atom, false);
     else turn(atom, true);
   } else {
@@ -157,8 +173,11 @@ template <class S, class T>
 /// Does what may wait until a commit is done: nodes flip, and atoms that ask all rules ask them.
 template <class S, class T>
 inline void Engine<S, T>::settle() {
-  if (nodes_changed()) settle_changed_nodes();
-  if constexpr (!kCompact) {
+  if (nodes_changed()) {
+    if constexpr (kMasked && kShape.nodes <= kWordBits) settle_nodes_in(s);
+    else settle_changed_nodes();
+  }
+  if constexpr (!kCompact && !kMasked) {
     if (t->broad == nullptr || !(s.ask_awake || s.ask_done)) return;
     ask_all(s.ask_awake ? &RuleWord::awake : &RuleWord::done);   // a rule that holds is awake, or has been asked already
     s.ask_awake = s.ask_done = false;
@@ -191,6 +210,7 @@ template <class S, class T>
 template <class S, class T>
 inline void Engine<S, T>::settle_node_word(std::uint32_t word) {
   const std::uint32_t first_atom = shape().first_node();
+  if constexpr (kMasked) s.busy = true;   // otherwise flips say so
   while (s.node_set[word] != 0) {
     const std::uint32_t n = word * kWordBits + static_cast<std::uint32_t>(std::countr_zero(s.node_set[word]));
     s.node_set[word] &= s.node_set[word] - 1u;
@@ -210,6 +230,7 @@ inline void Engine<S, T>::set_terms(std::uint32_t cell, float value) {
 
 template <class S, class T>
 inline void Engine<S, T>::note_touched(std::uint32_t satellite, float before) {
+  if (kMasked && (before == 1.0f || before == -1.0f)) return;   // see note_turned
   if (bits::test(s.touched_set, satellite)) return;
   bits::set(s.touched_set, satellite);
   s.before[s.touched] = before;
@@ -239,6 +260,10 @@ inline void Engine<S, T>::note_live([[maybe_unused]] std::uint32_t satellite, [[
 
 template <class S, class T>
 inline void Engine<S, T>::recheck(std::uint32_t fact) {
+  if constexpr (kMasked) {
+    bits::set(s.recheck_set, fact);
+    return;
+  }
   if (flag(fact, kRecheck)) return;
   flip_flag(fact, kRecheck);
   if constexpr (kCompact) s.recheck = 1;  // some fact is marked

@@ -37,7 +37,11 @@ inline void Engine<S, T>::reset() {
     if (!bits::test(t->initial_truth, a)) continue;
     set_truth(a, true);
     if constexpr (kCompact) follow(a, true);
-    else tell_readers(a, true);
+    else if constexpr (!kMasked) tell_readers(a, true);
+  }
+  if constexpr (kMasked) {
+    if constexpr (kMaskedTimers) s.timer_input = kTimersAtStart<typename T::Knowledge>;
+    for (std::uint32_t i = 0; i < S::kMaskPlanes; ++i) s.plane[i] = kPlanesOf<typename T::Knowledge>.at_start[i];
   }
   for (std::uint32_t i = 0; i < n.timers; ++i) bits::set(s.timer_set, i);  // on the first tick each timer looks at its condition
   for (std::uint32_t w = 0; w < timer_words(); ++w) bits::note_full(s.timer_sum, w, timer_words());
@@ -51,6 +55,9 @@ inline void Engine<S, T>::reset() {
 
 template <class S, class T>
 inline void Engine<S, T>::take_fact(std::uint32_t fact, float raw) {
+  if constexpr (kMasked) {
+    if (take_masked(fact, raw)) return;
+  }
   bool bad = false;
   const float value = sane(raw, bad);
   if (bad != flag(fact, kBad)) {
@@ -64,6 +71,22 @@ inline void Engine<S, T>::take_fact(std::uint32_t fact, float raw) {
   s.quiet = false;
   set_terms(fact, value);
   recheck(fact);
+}
+
+/// The same if neither this value nor any other is bad; returns false otherwise. What a term was follows from the value that was.
+template <class S, class T>
+[[gnu::always_inline]] inline bool Engine<S, T>::take_masked(std::uint32_t fact, float raw) {
+  if (s.bad_given != 0 || !(raw >= -1.0f && raw <= 1.0f)) [[unlikely]] return false;
+  const float old = s.cf[fact];
+  if (old == raw) return true;
+  s.cf[fact] = raw;
+  s.quiet = false;
+  bits::set(s.recheck_set, fact);
+  const CellAtoms<J>& a = t->cell_atoms[fact];
+  if (a.high != 0 && (old >= t->firing) != (raw >= t->firing)) flip(a.high);
+  if (a.low != 0 && (-t->firing >= old) != (-t->firing >= raw)) flip(a.low);
+  if (kFactsAskZero<typename T::Knowledge> && a.zero != 0 && (distance_from_one(old) >= t->firing) != (distance_from_one(raw) >= t->firing)) flip(a.zero);
+  return true;
 }
 
 template <class S, class T>
@@ -83,6 +106,7 @@ inline void Engine<S, T>::forget_events() {
 /// and which went (lost). The first tick only decides what is seen.
 template <class S, class T>
 inline void Engine<S, T>::notice() {
+  if constexpr (kMasked) return notice_masked();
   const bool first = s.ticks == 0;
   const std::uint32_t count = kCompact && s.recheck != 0 ? shape().facts : s.recheck;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -105,12 +129,43 @@ inline void Engine<S, T>::notice() {
   s.recheck = 0;
 }
 
+/// The same by masks, in the order of the facts.
 template <class S, class T>
-inline void Engine<S, T>::infer(std::uint32_t dt_us) {
+[[gnu::always_inline]] inline void Engine<S, T>::notice_masked() {
+  const bool first = s.ticks == 0;
+  for (std::uint32_t w = 0; w < Shape::words_for(kShape.facts); ++w) {
+    Word left = s.recheck_set[w];
+    s.recheck_set[w] = 0;
+    for (; left != 0; left &= left - 1u) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(left));
+      const std::uint32_t fact = w * kWordBits + bit;
+      const Notice& a = kNoticeOf<typename T::Knowledge>.fact[fact];
+      const Word was = s.seen_set[w] >> bit & 1u;
+      const Word now = s.cf[fact] > a.above[was | static_cast<Word>(s.attended[fact] != 0)];
+      if (now == was) continue;
+      s.seen_set[w] ^= Word{1} << bit;
+      s.busy = true;
+      if (a.seen != 0) flip(a.seen);
+      if (first) continue;
+      if (now != 0) s.event_list[s.events++] = static_cast<Ix>(fact);
+      else note_lost(fact);
+      if (a.momentary[now] != 0) flip(a.momentary[now]);
+    }
+  }
+}
+
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::infer_here(std::uint32_t dt_us) {
   s.busy = s.events != 0 || s.lost != 0;
   if (s.active != 0) s.last_active_us = s.now_us;
   if (s.ticks != 0) s.now_us += dt_us;
   s.fired = s.conflicts = s.wanted = 0;
+  if constexpr (kMasked) {
+    for (std::uint32_t w = 0; w < masks_for(kShape.satellites); ++w) {
+      s.before_one[w] = s.at_one[w];
+      s.before_minus_one[w] = s.at_minus_one[w];
+    }
+  }
   forget_events();
   notice();
   settle();
@@ -135,23 +190,11 @@ template <class S, class T>
   }
   const Level<J>& level = t->levels[l];
   if (timed(level)) run_timers(l);
+  if constexpr (kMasked) return run_masked(l);
   if (!asked(level)) return;
-  if constexpr (kMasked) {
-    if (level.end_word - level.first_word == 1u) return run_word(l);
-  }
   const std::uint32_t first = s.fired;
   evaluate_level(l);
   if (s.fired != first) commit(l, first);
-}
-
-/// Whether a timer of the level may be due, or the condition of one may have changed.
-template <class S, class T>
-[[gnu::always_inline]] inline bool Engine<S, T>::timed(const Level<J>& level) const {
-  if (level.first_stage == level.end_stage) return false;
-  if (s.now_us >= s.due_us) return true;
-  if (shape().timers > kWordBits) return s.timers_changed;
-  const std::uint32_t first = t->stages[level.first_stage].first_timer, end = t->stages[level.end_stage - 1u].end_timer;
-  return (s.timer_set[0] & bits::within(0, first, end)) != 0;
 }
 
 /// Whether the level has a rule to evaluate, or one that fires on each tick. Large programs leave that question to the summary.
@@ -166,16 +209,51 @@ template <class S, class T>
 template <class S, class T>
 inline bool Engine<S, T>::holds(std::uint32_t rule) const {
   if constexpr (kMasked) {
-    const auto& m = kMasksOf<typename T::Knowledge>.rule[rule];
-    Mask wrong = 0;
-    for (std::uint32_t w = 0; w < masks_for(kShape.atoms); ++w) wrong |= (s.truth_mask[w] & m.asked[w]) ^ m.wanted[w];
-    return wrong == 0;
+    std::uint32_t word = 0;
+    while (word + 1 < kShape.words && t->word_rule[word + 1] <= rule) ++word;
+    return (holding(word) >> (rule - t->word_rule[word]) & 1u) != 0;
   }
   const auto [begin, end] = conditions_of(rule);
   for (std::uint32_t i = begin; i < end; ++i) {
     if (!literal(t->conditions[i])) return false;
   }
   return true;
+}
+
+/// The rules of the word that hold: the `and` of its planes.
+template <class S, class T>
+[[gnu::always_inline]] inline Word Engine<S, T>::holding(std::uint32_t word) const {
+  constexpr const Planes& p = kPlanesOf<typename T::Knowledge>;
+  static_assert(p.first[kShape.words] == S::kMaskPlanes && kMasksFit<typename T::Knowledge, S::kMaskPlanes>);
+  Word hold = s.plane[p.first[word]];
+  for (std::uint32_t i = p.first[word] + 1u; i < p.first[word + 1]; ++i) hold &= s.plane[i];
+  return hold;
+}
+
+/// The rules of the word that fire: those that hold and are `while` or armed. They are disarmed.
+template <class S, class T>
+[[gnu::always_inline]] inline Word Engine<S, T>::firing(std::uint32_t word) {
+  const Word hold = holding(word), fire = hold & (t->while_rules[word] | ~s.rules[word].done);
+  s.rules[word].done = hold;
+  return fire;
+}
+
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::note_fired(std::uint32_t word, Word fire) {
+  const std::uint32_t base = t->word_rule[word];
+  for (Word left = fire; left != 0; left &= left - 1u) {
+    s.fired_list[s.fired++] = static_cast<Ix>(base + static_cast<std::uint32_t>(std::countr_zero(left)));
+  }
+}
+
+/// Runs the rules of a level, and commits what they write.
+template <class S, class T>
+[[gnu::always_inline]] inline void Engine<S, T>::run_masked(std::uint32_t l) {
+  const Level<J>& level = t->levels[l];
+  if (level.end_word - level.first_word == 1u) return run_word(l);
+  const std::uint32_t first = s.fired;
+  for (std::uint32_t w = level.first_word; w < level.end_word; ++w) note_fired(w, firing(w));
+  if (s.fired != first) commit(l, first);
 }
 
 template <class S, class T>
@@ -217,113 +295,6 @@ template <class S, class T>
   }
 }
 
-// ---- timers: `C for d` is true when C has been true at every evaluation of its level for d
-
-template <class S, class T>
-inline void Engine<S, T>::link(std::uint32_t timer) {
-  const std::uint32_t q = t->timers[timer].queue;
-  s.timer_prev[timer] = s.queue_tail[q];
-  s.timer_next[timer] = 0;
-  if (s.queue_tail[q] != 0) s.timer_next[s.queue_tail[q] - 1u] = static_cast<Ix>(timer + 1);
-  else s.queue_head[q] = static_cast<Ix>(timer + 1);
-  s.queue_tail[q] = static_cast<Ix>(timer + 1);
-  start(timer);
-  const std::int64_t due = s.now_us + t->queue_us[q];
-  if (due < s.due_us) s.due_us = due;
-}
-
-/// Puts the timer into its queue behind those that began no later. For a state that comes from elsewhere.
-template <class S, class T>
-inline void Engine<S, T>::link_since(std::uint32_t timer, std::int64_t start_us) {
-  const std::uint32_t q = t->timers[timer].queue;
-  Ix behind = s.queue_tail[q];
-  while (behind != 0 && s.start_us[behind - 1u] > start_us) behind = s.timer_prev[behind - 1u];
-  const Ix before = behind == 0 ? s.queue_head[q] : s.timer_next[behind - 1u];
-  s.timer_prev[timer] = behind;
-  s.timer_next[timer] = before;
-  (behind == 0 ? s.queue_head[q] : s.timer_next[behind - 1u]) = static_cast<Ix>(timer + 1);
-  (before == 0 ? s.queue_tail[q] : s.timer_prev[before - 1u]) = static_cast<Ix>(timer + 1);
-  s.start_us[timer] = start_us;
-}
-
-template <class S, class T>
-inline void Engine<S, T>::unlink(std::uint32_t timer) {
-  const std::uint32_t q = t->timers[timer].queue;
-  const Ix previous = s.timer_prev[timer], next = s.timer_next[timer];
-  if (previous != 0) s.timer_next[previous - 1u] = next;
-  else s.queue_head[q] = next;
-  if (next != 0) s.timer_prev[next - 1u] = previous;
-  else s.queue_tail[q] = previous;
-}
-
-template <class S, class T>
-[[gnu::always_inline]] inline void Engine<S, T>::sample(std::uint32_t timer) {
-  const bool on = literal(t->timers[timer].input);
-  const TimerState state = state_of(timer);
-  if (on == (state != kTimerOff)) return;
-  if (on) {
-    set_state(timer, kTimerWaits);
-    link(timer);
-    return;
-  }
-  set_state(timer, kTimerOff);
-  if (state == kTimerWaits) unlink(timer);
-  else flip(shape().first_timer() + timer);
-}
-
-/// For each stage of the level: looks at the timers whose condition has changed, then at those that are due.
-template <class S, class T>
-[[gnu::always_inline]] inline void Engine<S, T>::run_timers_at(std::uint32_t l) {
-  for (std::uint32_t g = t->levels[l].first_stage; g < t->levels[l].end_stage; ++g) run_stage(t->stages[g]);
-}
-
-template <class S, class T>
-[[gnu::always_inline]] inline void Engine<S, T>::run_stage(const Stage<J>& stage) {
-  if (shape().timers == 0) return;   // then there are no stages either, but a compiler does not know that and warns of empty arrays
-  const std::uint32_t words = Shape::words_for(shape().timers);
-  const std::uint32_t end = (stage.end_timer - 1u) / kWordBits + 1u;
-  const auto next = [&](std::uint32_t w) { return words == 1 ? end : bits::next_full(s.timer_sum, w, end, words); };
-  for (std::uint32_t w = stage.first_timer / kWordBits; w < end; w = next(w + 1)) {
-    Word changed = s.timer_set[w] & bits::within(w, stage.first_timer, stage.end_timer);
-    if (changed == 0) continue;
-    s.timer_set[w] &= ~changed;
-    if (words > 1 && s.timer_set[w] == 0) bits::note_empty(s.timer_sum, w, words);
-    for (; changed != 0; changed &= changed - 1u) {
-      sample(w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(changed)));
-    }
-  }
-  if (s.now_us >= s.due_us) expire(stage);
-  settle();
-}
-
-/// Ends the timers that are due. The timers of a queue have the same duration, so they are due in the order in which they began.
-template <class S, class T>
-inline void Engine<S, T>::expire(const Stage<J>& stage) {
-  for (std::uint32_t q = stage.first_queue; q < stage.end_queue; ++q) {
-    while (s.queue_head[q] != 0 && s.now_us - started_us(s.queue_head[q] - 1u) >= t->queue_us[q]) {
-      const std::uint32_t timer = s.queue_head[q] - 1u;
-      unlink(timer);
-      set_state(timer, kTimerDone);
-      flip(shape().first_timer() + timer);
-    }
-  }
-}
-
-template <class S, class T>
-inline std::int64_t Engine<S, T>::next_due() const {
-  std::int64_t due = (std::numeric_limits<std::int64_t>::max)();
-  for (std::uint32_t q = 0; q < shape().queues; ++q) {
-    if (s.queue_head[q] == 0) continue;
-    const std::int64_t at = started_us(s.queue_head[q] - 1u) + t->queue_us[q];
-    if (at < due) due = at;
-  }
-  if (t->idle == Idle::kHold && s.active == 0 && s.strategy != 0) {
-    const std::int64_t at = s.last_active_us + t->hold_limit_us + 1;
-    if (at < due) due = at;
-  }
-  return due;
-}
-
 // ---- the end of a tick
 
 /// Decides which controller runs, and the status.
@@ -351,12 +322,34 @@ inline void Engine<S, T>::decide() {
   if (s.active > 1) s.status = Status::kTwoStrategies;
 }
 
+/// Notes the satellites that are or were 1 or -1 and have changed.
+template <class S, class T>
+inline void Engine<S, T>::note_turned() {
+  for (std::uint32_t w = 0; w < masks_for(kShape.satellites); ++w) {
+    for (Mask left = (s.before_one[w] ^ s.at_one[w]) | (s.before_minus_one[w] ^ s.at_minus_one[w]); left != 0; left &= left - 1u) {
+      const std::uint32_t cell = kShape.facts + w * kMaskBits + static_cast<std::uint32_t>(std::countr_zero(left));
+      note_change(cell, s.cf[cell]);
+    }
+  }
+}
+
+/// Whether `note_turned` has noted the satellite, if it has changed.
+template <class S, class T>
+inline bool Engine<S, T>::noted_turned(std::uint32_t satellite) const {
+  const std::uint32_t w = satellite / kMaskBits;
+  return ((s.before_one[w] | s.before_minus_one[w] | s.at_one[w] | s.at_minus_one[w]) & mask_of(satellite)) != 0;
+}
+
 template <class S, class T>
 inline void Engine<S, T>::finish() {
   s.changed = 0;
+  if constexpr (kMasked) note_turned();
   for (std::uint32_t i = 0; i < s.touched; ++i) {
     const std::uint32_t satellite = s.touched_list[i];
     bits::clear(s.touched_set, satellite);
+    if constexpr (kMasked) {
+      if (noted_turned(satellite)) continue;
+    }
     const float value = value_of(shape().facts + satellite);
     if (!same(value, s.before[i])) note_change(shape().facts + satellite, value);
   }

@@ -42,6 +42,7 @@ template <std::uint32_t kCount>
 struct FactStore {
   static constexpr std::uint32_t kWords = Shape::words_for(kCount) + (kCount == 0 ? 1 : 0);
   static constexpr std::uint32_t kSums = Shape::words_for(kWords);
+  static constexpr bool kSummed = kWords > 4;   // a few words are as soon read as their summary
 
   float value[kCount == 0 ? 1 : kCount] = {};
   Word changed[kWords] = {};
@@ -51,12 +52,16 @@ struct FactStore {
   constexpr void set(std::uint32_t fact, float v) {
     value[fact] = v;
     bits::set(changed, fact);
-    bits::set(changed_sum, fact / kWordBits);
+    if constexpr (kSummed) bits::set(changed_sum, fact / kWordBits);
   }
   /// Whether some fact was set since a mind last read them.
   [[nodiscard]] constexpr bool has_changed() const {
     Word any = 0;
-    for (const Word words : changed_sum) any |= words;
+    if constexpr (kSummed) {
+      for (const Word words : changed_sum) any |= words;
+    } else {
+      for (const Word word : changed) any |= word;
+    }
     return any != 0;
   }
 };

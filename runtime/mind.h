@@ -176,8 +176,14 @@ class ChangeList {
 };
 
 namespace detail {
+/// Sources that were emitted before there were planes have none.
 template <class K>
-struct StateFor { using Type = StaticState<typename K::Index, K::kShape>; };
+inline constexpr std::uint32_t kPlanesIn = [] {
+  if constexpr (requires { K::kPlanes; }) return K::kPlanes;
+  else return 0u;
+}();
+template <class K>
+struct StateFor { using Type = StaticState<typename K::Index, K::kShape, kPlanesIn<K>>; };
 template <class K>
   requires requires { K::kCompact; }
 struct StateFor<K> { using Type = CompactState<K::kShape, K::kCompact>; };
@@ -342,16 +348,19 @@ void Mind<K>::act(Store& store, Duration since_last) {
     store.reader.address = this;
     read_.address = &store;
   }
-  for (std::uint32_t g = 0; g < Store::kSums; ++g) {
-    for (Word words = store.changed_sum[g]; words != 0; words &= words - 1u) {
-      const std::uint32_t w = g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(words));
-      for (Word bits = store.changed[w]; bits != 0; bits &= bits - 1u) {
-        const std::uint32_t f = w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(bits));
-        engine().take_fact(f, store.value[f]);
-      }
-      store.changed[w] = 0;
+  const auto take = [&](std::uint32_t w) {
+    for (Word left = std::exchange(store.changed[w], 0); left != 0; left &= left - 1u) {
+      const std::uint32_t f = w * kWordBits + static_cast<std::uint32_t>(std::countr_zero(left));
+      engine().take_fact(f, store.value[f]);
     }
-    store.changed_sum[g] = 0;
+  };
+  if constexpr (Store::kSummed) {
+    for (std::uint32_t g = 0; g < Store::kSums; ++g) {
+      for (Word words = store.changed_sum[g]; words != 0; words &= words - 1u) take(g * kWordBits + static_cast<std::uint32_t>(std::countr_zero(words)));
+      store.changed_sum[g] = 0;
+    }
+  } else {
+    for (std::uint32_t w = 0; w < Store::kWords; ++w) take(w);
   }
   engine().advance(since_last.us);
 }

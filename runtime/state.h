@@ -92,9 +92,9 @@ struct Scalars {
 enum TimerState : std::uint8_t { kTimerOff, kTimerWaits, kTimerDone };
 enum FactFlag : std::uint8_t { kSeen = 1, kRecheck = 2, kBad = 4 };
 
-/// State as one object, for a shape that is a constant. No pointers inside: it may be copied.
-template <class Index, Shape kShape>
-struct StaticState : Scalars<Index>, MaskState<kShape> {
+/// State as one object, for a shape that is a constant. No pointers inside: it may be copied. `kPlanes`: see note [planes]; 0 if rules are no masks.
+template <class Index, Shape kShape, std::uint32_t kPlanes>
+struct StaticState : Scalars<Index>, MaskState<kShape, kPlanes> {
   using Ix = Index;
   static constexpr bool kConstantShape = true;
   static constexpr bool kCompact = false;

@@ -24,7 +24,7 @@ namespace mts {
 
 /// Number of this layout. Emitted code asserts that it was made for the runtime that it meets.
 inline constexpr std::uint32_t kAbi = 2;
-// check_abi: 2 4f83d511b568
+// check_abi: 2 5efc81eec6fb
 
 using Word = std::uint32_t;
 inline constexpr std::uint32_t kWordBits = 32;

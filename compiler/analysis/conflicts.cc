@@ -118,8 +118,12 @@ class ConflictQuestions {
     source::sort_unique(reset_);
     std::ranges::sort(cleared);
     std::ranges::sort(written);
+    const auto count = [](const auto& sorted, auto x) {
+      const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), x);
+      return static_cast<std::size_t>(last - first);
+    };
     for (const CellId cell : reset_) {
-      const auto by_name = std::ranges::equal_range(written, cell).size(), with_group = std::ranges::equal_range(cleared, subject_.group_of[program::index(cell)]).size();
+      const std::size_t by_name = count(written, cell), with_group = count(cleared, subject_.group_of[program::index(cell)]);
       const float back = program_[cell].keep ? 0.0f : program_[cell].initial;
       if (by_name + with_group == resets_.size() || back == 0.0f) continue;
       put_back_[thing_of(cell)] |= back > 0.0f ? kRaised : kLowered;

@@ -104,6 +104,7 @@ void emit_knowledge(const CppInput& in, std::string& out) {
   field("group_members", n.group_members);
   field("contested", n.contested);
   out += "  };\n";
+  if (const std::uint32_t planes = in.planes.planes(); planes != 0) fmt::format_to(Out(out), "  static constexpr std::uint32_t kPlanes = {};\n", planes);
   if (in.options.compact) {
     const mts::CompactShape bounds = tables::compact_shape(in.tables);
     fmt::format_to(Out(out), "  static constexpr mts::CompactShape kCompact = {{.written = {}, .blends = {}}};\n",
@@ -147,6 +148,14 @@ std::string instances(const CppInput& in, std::string_view before) {
   return out;
 }
 
+/// The planes of the knowledge base as the runtime finds them: before the instances, which need them.
+std::string planes_of(const CppInput& in) {
+  if (in.planes.planes() == 0) return {};
+  const std::string& ns = in.options.name_space;
+  return fmt::format("template <>\ninline constexpr mts::Planes mts::kPlanesOf<::{0}::Knowledge>{{::{0}::kPlaneFirst, ::{0}::kPlaneBegin, {1}, ::{0}::kPlanesAtStart}};\n\n",
+                     ns, in.planes.rows.empty() ? "nullptr" : "::" + ns + "::kPlaneRows");
+}
+
 // note [files of one make]
 // The fleet and the map of a knowledge base stand in files of their own, which say planes, satellites and facts by number. One that
 // is left over from before a change would compile with the new header and decide by the old numbers. So the header says what it was
@@ -172,7 +181,7 @@ std::size_t least_of_header(const program::Program& program) {
 
 Cpp cpp(const program::Program& program, const tables::Tables& tables, const CppOptions& options) {
   if (least_of_header(program) > kMaxCppBytes) return {};
-  const CppInput in{program, tables, options, make_names(program, tables), make_type_names(program)};
+  const CppInput in{program, tables, options, make_names(program, tables), make_type_names(program), options.compact ? tables::PlaneForm{} : tables::build_planes(tables)};
   const std::string declared = header_body(in), defined = is_full(declared) ? "" : source_body(in);
   if (is_full(declared) || is_full(defined)) return {};
   const std::uint64_t print = print_of_code(declared, defined);
@@ -191,7 +200,7 @@ Cpp cpp(const program::Program& program, const tables::Tables& tables, const Cpp
   h += options.compact ? "#include <waymark/runtime/compact_mind.h>\n" : "#include <waymark/runtime/mind.h>\n";
   h += has_perception(in) ? "#include <waymark/runtime/perception.h>\n\n" : "\n";
   h += within(declared + emit_prints(print, options.map_print)) + instances(in, "extern ");
-  cpp.source = fmt::format("{}#include \"{}\"\n\n{}{}", kGenerated, options.header_name, within(defined), instances(in, ""));
+  cpp.source = fmt::format("{}#include \"{}\"\n\n{}{}{}", kGenerated, options.header_name, within(defined), planes_of(in), instances(in, ""));
   return cpp;
 }
 

@@ -11,6 +11,7 @@
 
 #include "compiler/emit/emit.h"
 #include "compiler/emit/names.h"
+#include "compiler/tables/planes.h"
 
 namespace kb::emit {
 
@@ -20,6 +21,7 @@ struct CppInput {
   const CppOptions& options;
   Names names;
   TypeNames types;
+  tables::PlaneForm planes;   ///< none in compact form
 };
 
 /// A float literal that reads back as the same float: "0.75f".

@@ -25,6 +25,7 @@ class TablesPrinter {
     groups();
     start();
     strengths();
+    if (in_.planes.planes() != 0) planes();
     assembly();
   }
 
@@ -183,6 +184,13 @@ class TablesPrinter {
     numbers("std::uint8_t", "kIsAnd", t_.is_and);
     numbers("Index", "kAtomCell", t_.atom_cell);
     numbers("std::uint8_t", "kAtomTerm", t_.atom_term);
+  }
+
+  void planes() {
+    numbers("std::uint16_t", "kPlaneFirst", in_.planes.first);
+    numbers("std::uint16_t", "kPlaneBegin", in_.planes.begin);
+    array("mts::PlaneRow", "kPlaneRows", in_.planes.rows.size(), [&](std::size_t i) { return fmt::format("{{{}, 0x{:08x}}},", in_.planes.rows[i].plane, in_.planes.rows[i].rules); });
+    words("kPlanesAtStart", in_.planes.at_start);
   }
 
   void assembly() {

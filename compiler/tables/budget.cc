@@ -6,7 +6,9 @@
 #include "compiler/program/net_effects.h"
 #include "compiler/tables/compact.h"
 #include "compiler/tables/perception.h"
+#include "compiler/tables/planes.h"
 #include "compiler/tables/tables.h"
+#include "compiler/tables/planes.h"
 
 namespace kb::tables {
 namespace {
@@ -88,8 +90,9 @@ Budget budget(const Tables& tables, const program::Program& program, bool image)
                       ? mts::DynamicState<std::uint16_t>::bytes(n) + sizeof(mts::Scalars<std::uint16_t>)
                       : mts::DynamicState<std::uint32_t>::bytes(n) + sizeof(mts::Scalars<std::uint32_t>);
   if (!image) {
-    b.state_bytes += mts::mask_state_bytes(n);
-    b.mask_bytes = mts::mask_table_bytes(n);
+    const std::uint32_t planes = build_planes(tables).planes();
+    b.state_bytes += mts::mask_state_bytes(n, planes);
+    b.mask_bytes = mts::mask_table_bytes(n, planes);
     if (against_compact(tables, program).empty()) b.compact_state_bytes = compact_state_bytes(n, compact_shape(tables));
   }
   for (const program::Cell& cell : program.cells) b.name_bytes += cell.name.size() + 1;

@@ -1,46 +1,64 @@
 // Writes emitted C++ for random programs, several to a translation unit:
-//   make_units OUT_DIR UNITS PROGRAMS_EACH
+//   make_units OUT_DIR UNITS PROGRAMS_EACH SEED...
 // Those that have a compact form are written in it as well.
-// OUT_DIR/unit_N.cc, and OUT_DIR/cases.inc that names all cases for main.cc.
+// OUT_DIR/unit_N.cc, OUT_DIR/unit_more.cc with the programs of the seeds, and OUT_DIR/cases.inc that names all cases for main.cc.
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "compiler/emit/emit.h"
 #include "compiler/tables/compact.h"
 #include "tests/unit/program/random_program.h"
 
-int main(int argc, char** argv) {
-  if (argc != 4) return 2;
-  const std::string folder = argv[1];
-  const unsigned units = static_cast<unsigned>(std::strtoul(argv[2], nullptr, 10));
-  const unsigned each = static_cast<unsigned>(std::strtoul(argv[3], nullptr, 10));
-  std::ofstream cases(folder + "/cases.inc");
-  std::uint64_t seed = 0;
-  for (unsigned u = 0; u < units; ++u) {
-    std::ofstream unit(folder + "/unit_" + std::to_string(u) + ".cc");
-    unit << "#include \"tests/emitted/compare.h\"\n";
-    for (unsigned k = 0; k < each; ++k) {
-      const std::string name = "random_" + std::to_string(++seed);
-      const auto program = kb::program::testing::random_program(seed);
-      // Every second one as if it were large, so that the mechanisms for large programs are emitted too.
-      const auto tables = kb::tables::build(program, seed % 2 == 0 ? kb::tables::Limits{} : kb::tables::Limits{2, 0});
-      const auto cpp = kb::emit::cpp(program, tables, {name, name + ".kb.h"});
-      std::ofstream(folder + "/" + name + ".kb.h") << cpp.header;
-      std::ofstream(folder + "/" + name + ".kb.cc") << cpp.source;
-      unit << "#include \"" << name << ".kb.cc\"\n"
-           << "bool run_" << name << "() { return kb::emitted::agrees<" << name << "::Knowledge>(" << seed << "); }\n";
-      cases << "KB_CASE(" << name << ")\n";
-      if (!kb::tables::against_compact(tables, program).empty()) continue;
-      const std::string small = "compact_" + std::to_string(seed);
-      const auto compact = kb::emit::cpp(program, tables, {small, small + ".kb.h", true});
-      std::ofstream(folder + "/" + small + ".kb.h") << compact.header;
-      std::ofstream(folder + "/" + small + ".kb.cc") << compact.source;
-      unit << "#include \"" << small << ".kb.cc\"\n"
-           << "bool run_" << small << "() { return kb::emitted::agrees<" << small << "::Knowledge, " << small << "::Mind>(" << seed << "); }\n";
-      cases << "KB_CASE(" << small << ")\n";
-    }
-    if (!unit) return 1;
+namespace {
+
+class Maker {
+ public:
+  explicit Maker(std::string folder) : folder_(std::move(folder)), cases_(folder_ + "/cases.inc") {}
+
+  /// False if something could not be written.
+  bool unit(const std::string& name, std::uint64_t first, std::uint64_t last) {
+    std::ofstream unit(folder_ + "/unit_" + name + ".cc", begun_[name] ? std::ios::app : std::ios::trunc);
+    if (!std::exchange(begun_[name], true)) unit << "#include \"tests/emitted/compare.h\"\n";
+    for (std::uint64_t seed = first; seed <= last; ++seed) program(unit, seed);
+    return unit && cases_;
   }
-  return cases ? 0 : 1;
+
+ private:
+  void program(std::ofstream& unit, std::uint64_t seed) {
+    const auto program = kb::program::testing::random_program(seed);
+    // Every second one as if it were large, so that the mechanisms for large programs are emitted too.
+    const auto tables = kb::tables::build(program, seed % 2 == 0 ? kb::tables::Limits{} : kb::tables::Limits{2, 0});
+    write(unit, seed, program, tables, "random_", false);
+    if (kb::tables::against_compact(tables, program).empty()) write(unit, seed, program, tables, "compact_", true);
+  }
+
+  void write(std::ofstream& unit, std::uint64_t seed, const kb::program::Program& program, const kb::tables::Tables& tables, const char* form, bool compact) {
+    const std::string name = form + std::to_string(seed);
+    const auto cpp = kb::emit::cpp(program, tables, {name, name + ".kb.h", compact});
+    std::ofstream(folder_ + "/" + name + ".kb.h") << cpp.header;
+    std::ofstream(folder_ + "/" + name + ".kb.cc") << cpp.source;
+    unit << "#include \"" << name << ".kb.cc\"\n"
+         << "bool run_" << name << "() { return kb::emitted::agrees<" << name << "::Knowledge, " << name << "::Mind>(" << seed << "); }\n";
+    cases_ << "KB_CASE(" << name << ")\n";
+  }
+
+  std::string folder_;
+  std::ofstream cases_;
+  std::map<std::string, bool> begun_;   // by unit: whether it has been begun
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 4) return 2;
+  const auto number = [&](int i) { return std::strtoull(argv[i], nullptr, 10); };
+  const std::uint64_t units = number(2), each = number(3);
+  Maker maker(argv[1]);
+  bool good = true;
+  for (std::uint64_t u = 0; u < units; ++u) good = maker.unit(std::to_string(u), u * each + 1, (u + 1) * each) && good;
+  for (int i = 4; i < argc; ++i) good = maker.unit("more", number(i), number(i)) && good;
+  return good ? 0 : 1;
 }
