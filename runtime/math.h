@@ -21,8 +21,8 @@
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0)
 #error "-ffast-math and -ffinite-math-only let the compiler change results and drop the tests for NaN; compile this file without them"
 #endif
-#if defined(__ASSOCIATIVE_MATH__)
-#error "-funsafe-math-optimizations and -fassociative-math let the compiler change results; compile this file without them"
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "-funsafe-math-optimizations, -fassociative-math and -freciprocal-math let the compiler change results; compile this file without them"
 #endif
 static_assert(0.1 - static_cast<double>(0.1f) < 0.0, "-fsingle-precision-constant changes results; compile this file without it");
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -200,7 +201,7 @@ bool drive_missing(const Prepared& prepared, const BatchFiles& files, const Want
   const Batch& batch = *prepared.batch;
   const std::size_t runs = runs_of(batch, files.missing());
   std::size_t done = 0, shards = 0;
-  Progress progress(session, "runs");
+  std::optional<Progress> progress(std::in_place, session, "runs");
   std::string failed, failed_path;
   ListDealer dealer(files.missing(), [&](std::size_t shard, const std::string& rows) {
     const std::string error = files.write(shard, rows);
@@ -211,7 +212,7 @@ bool drive_missing(const Prepared& prepared, const BatchFiles& files, const Want
     }
     ++shards;
     done += batch.block(shard).last - batch.block(shard).first;
-    progress.show(done, runs);
+    progress->show(done, runs);
     return true;
   });
   std::atomic<bool> stop{false};
@@ -223,6 +224,7 @@ bool drive_missing(const Prepared& prepared, const BatchFiles& files, const Want
     if (thread < serving) ranks->serve(dealer);
     else work(batch, dealer, thread - serving, stop);
   });
+  progress.reset();   // what is said now has a line of its own
   if (!failed.empty()) session.report(Kind::kCannotWrite, {failed_path, failed});
   else if (shards < files.missing().size())
     session.remark(fmt::format("interrupted: {} of {} runs are kept; the same command goes on", wanted.before + done, wanted.all));

@@ -261,6 +261,7 @@ int run_kbc(int argc, char** argv, Ranks* ranks) {
 int run_kbc_guarded(int argc, char** argv, Ranks* ranks) {
   hold_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);   // a file beyond the limit of the user is an output that cannot be written
+  std::signal(SIGCHLD, SIG_DFL);   // where it was ignored, nobody would learn how a driver ended
   return guarded([&] { return run_kbc(argc, argv, ranks); });
 }
 

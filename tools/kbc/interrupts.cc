@@ -3,42 +3,48 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cstdint>
 #include <ctime>
 
 namespace kb::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;   // the first signal that came; 0: none
-volatile std::sig_atomic_t unseen = 0;        // whether it came and `which` has not told yet
-volatile std::sig_atomic_t hung_up = 0;       // whether a SIGHUP came that means files, and `reopen` has not told yet
-bool held = false, hangup_means_files = false;
-timespec first_came{};   // used only by the handler
+// Any thread may be interrupted by a signal, and another may ask for it at the same time.
+std::atomic<int> interrupted{0};               // the first signal that came; 0: none
+std::atomic<bool> unseen{false};               // whether it came and `which` has not told yet
+std::atomic<bool> hung_up{false};              // whether a SIGHUP came that means files, and `reopen` has not told yet
+std::atomic<bool> hangup_means_files{false};
+std::atomic<std::int64_t> first_came_ns{0};    // when; 0: none has come
+static_assert(decltype(interrupted)::is_always_lock_free && decltype(unseen)::is_always_lock_free && decltype(first_came_ns)::is_always_lock_free);
+bool held = false;
 constexpr unsigned kAgain_s = 1;
+constexpr std::int64_t kSameMoment_ns = 300'000'000;
 
 // `timeout` and some shells send a signal both to the program and to its group, so two signals at the same moment count as one.
 void note(int signal) {
   if (signal == SIGHUP && hangup_means_files) {
-    hung_up = 1;
+    hung_up = true;
     return;
   }
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  if (interrupted == 0) {
-    first_came = now;
+  const std::int64_t now_ns = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  std::int64_t first_ns = 0;
+  if (first_came_ns.compare_exchange_strong(first_ns, now_ns)) {
+    unseen = true;
     interrupted = signal;
-    unseen = 1;
     alarm(kAgain_s);
     return;
   }
-  const double since_s = static_cast<double>(now.tv_sec - first_came.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - first_came.tv_nsec);
-  if (since_s < 0.3) return;
+  if (now_ns - first_ns < kSameMoment_ns) return;
   std::signal(signal, SIG_DFL);
   std::raise(signal);   // when the handler has returned
 }
 
 // The signal may have come between the last look at `which` and a call that waits, say for the reader of a pipe. That call would wait on.
 void break_off_waiting(int /*signal*/) {
-  if (unseen != 0) alarm(kAgain_s);
+  if (unseen) alarm(kAgain_s);
 }
 
 bool has_terminal() {
@@ -55,9 +61,8 @@ void Interrupts::put_off_hangups() {
 
 Interrupts::Interrupts(bool reopens) {
   interrupted = 0;
-  unseen = 0;
-  hung_up = 0;
-  hangup_means_files = false;
+  first_came_ns = 0;
+  unseen = hung_up = hangup_means_files = false;
   held = true;
   struct sigaction again {};
   again.sa_handler = break_off_waiting;
@@ -82,14 +87,10 @@ Interrupts::~Interrupts() {
 
 int Interrupts::which() {
   const int signal = interrupted;
-  if (signal != 0) unseen = 0;
+  if (signal != 0) unseen = false;
   return signal;
 }
-bool Interrupts::reopen() {
-  if (hung_up == 0) return false;
-  hung_up = 0;
-  return true;
-}
+bool Interrupts::reopen() { return hung_up.exchange(false); }
 bool Interrupts::are_held() { return held; }
 
 }  // namespace kb::cli
