@@ -1,6 +1,9 @@
 // Reports rules that change nothing, because all that they write is so already.
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "compiler/analysis/satisfier.h"
@@ -83,7 +86,20 @@ class AlreadySo {
            std::ranges::any_of(rule.clears, [&](std::uint32_t group) { return raised_beside(rule, group); });
   }
 
+  /// Whether rules of the level write different values to the cell by name.
+  [[nodiscard]] bool disputed(CellId cell, std::uint32_t level) {
+    const auto [known, fresh] = disputed_.try_emplace({cell, level}, false);
+    if (!fresh) return known->second;
+    std::optional<float> first;
+    return known->second = std::ranges::any_of(of_level(program_, subject_.writers.by_name[program::index(cell)], level), [&](RuleId id) {
+             const auto value = program::net_value(program_, subject_.group_of, program_[id], cell);
+             if (!first) first = value;
+             return value != first;
+           });
+  }
+
   [[nodiscard]] bool differs(std::span<const RuleId> others, const Rule& rule, const program::Write& write) {
+    if (!disputed(write.cell, rule.level)) return false;
     return std::ranges::any_of(of_level(program_, others, rule.level), [&](RuleId id) {
       const auto value = program::net_value(program_, subject_.group_of, program_[id], write.cell);
       return value && *value != write.value && may_meet(rule, id);
@@ -106,6 +122,7 @@ class AlreadySo {
   const Program& program_;
   float firing_;
   std::vector<std::vector<float>> values_;   // by cell
+  std::map<std::pair<CellId, std::uint32_t>, bool> disputed_;   // by cell and level
   Satisfier& satisfier_;
 };
 

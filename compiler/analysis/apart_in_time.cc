@@ -38,7 +38,7 @@ bool fires_once(const Subject& subject, const Rule& rule) {
   const program::Program& program = subject.program;
   const program::Cond& asked = program[rule.condition];
   const bool high = asked.op == program::Cond::Op::kIs && asked.term == program::Term::kHigh && static_cast<double>(program[asked.cell].initial) >= program.settings.firing;
-  if (!high || subject.raiser[program::index(asked.cell)] != program::RuleId::kNone || std::ranges::any_of(program.rules, &Rule::reset)) return false;
+  if (!high || subject.raiser[program::index(asked.cell)] != program::RuleId::kNone || !subject.writers.by_reset.empty()) return false;
   return program::net_value(program, subject.group_of, rule, asked.cell).value_or(1.0f) < 0.0f;
 }
 

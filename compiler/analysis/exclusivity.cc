@@ -12,11 +12,11 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 #include <tuple>
-#include <utility>
+#include <vector>
 
 #include "compiler/analysis/satisfier.h"
+#include "compiler/analysis/writers.h"
 #include "compiler/program/net_effects.h"
 
 namespace kb::analysis {
@@ -29,7 +29,8 @@ using program::Rule;
 class Exclusivity {
  public:
   explicit Exclusivity(const Program& program)
-      : program_(program), group_of_(program::group_of_cells(program)), exclusive_(program.exclusive.size(), true), can_rise_(program.cells.size(), false) {}
+      : program_(program), group_of_(program::group_of_cells(program)), exclusive_(program.exclusive.size(), true), can_rise_(program.cells.size(), false),
+        writers_(program) {}
 
   std::vector<bool> run() {
     for (std::uint32_t group = 0; group < exclusive_.size(); ++group) begin(group);
@@ -58,14 +59,23 @@ class Exclusivity {
     }
   }
 
+  /// What a reset brings back in groups that it does not write is the same for all resets of a level, so only one of them is asked.
   void check_reset(const Rule& rule) {
-    for (const BroughtBack& back : brought_back_) {
-      if (std::binary_search(rule.clears.begin(), rule.clears.end(), back.group)) continue;
-      const auto in_group = [&](const program::Write& write) { return group_of_[program::index(write.cell)] == back.group; };
-      const bool plain = std::none_of(rule.writes.begin(), rule.writes.end(), in_group);
-      if (plain && !plain_.insert({back.group, rule.level}).second) continue;   // the same as that of another rule
-      const bool written = std::any_of(rule.writes.begin(), rule.writes.end(), [&](const program::Write& write) { return write.cell == back.member; });
-      if (!written) check_raised(rule, back.member, program_[back.member].initial);
+    std::vector<std::uint32_t> written(rule.clears.begin(), rule.clears.end());
+    for (const program::Write& write : rule.writes) written.push_back(group_of_[program::index(write.cell)]);
+    source::sort_unique(written);
+    const auto check = [&](const BroughtBack& back) { check_raised(rule, back.member, program_[back.member].initial); };
+    std::vector<BroughtBack>& unasked = unasked_.try_emplace(rule.level, brought_back_).first->second;
+    std::erase_if(unasked, [&](const BroughtBack& back) {
+      if (std::ranges::binary_search(written, back.group)) return false;
+      check(back);
+      return true;
+    });
+    for (const std::uint32_t group : written) {
+      if (std::ranges::binary_search(rule.clears, group)) continue;
+      for (auto back = std::ranges::lower_bound(brought_back_, group, {}, &BroughtBack::group); back != brought_back_.end() && back->group == group; ++back) {
+        if (std::ranges::find(rule.writes, back->member, &program::Write::cell) == rule.writes.end()) check(*back);
+      }
     }
   }
 
@@ -94,17 +104,21 @@ class Exclusivity {
   [[nodiscard]] bool raised_beside(const Rule& rule, CellId cell) {
     const auto [known, fresh] = beside_.try_emplace({cell, rule.level, rule.reset}, false);
     if (!fresh) return known->second;
-    return known->second = std::any_of(program_.rules.begin(), program_.rules.end(), [&](const Rule& other) {
-             return other.level == rule.level && other.reset == rule.reset && program::net_value(program_, group_of_, other, cell).value_or(0.0f) > 0.0f;
-           });
+    const auto raises = [&](const Rule& other) {
+      return other.level == rule.level && other.reset == rule.reset && program::net_value(program_, group_of_, other, cell).value_or(0.0f) > 0.0f;
+    };
+    const auto by_name = [&](program::RuleId id) { return raises(program_[id]); };
+    const bool brought_back = rule.reset && program_[cell].initial > 0.0f;
+    return known->second = brought_back ? std::ranges::any_of(program_.rules, raises) : std::ranges::any_of(writers_.by_name[program::index(cell)], by_name);
   }
 
   const Program& program_;
   std::vector<std::uint32_t> group_of_;   // by cell
   std::vector<bool> exclusive_;           // by group
   std::vector<bool> can_rise_;            // by cell
-  std::vector<BroughtBack> brought_back_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> plain_;      // groups and levels with a reset that writes no member of the group by name
+  Writers writers_;
+  std::vector<BroughtBack> brought_back_;                            // ascending by group
+  std::map<std::uint32_t, std::vector<BroughtBack>> unasked_;        // by level: those that each reset so far writes something of
   std::map<std::tuple<CellId, std::uint32_t, bool>, bool> beside_;
 };
 

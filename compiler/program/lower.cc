@@ -13,6 +13,7 @@ namespace kb::program {
 namespace {
 
 constexpr std::uint32_t kNoPlace = 0xFFFFFFFFu;
+constexpr std::size_t kMostBeside = 1'000;   // parts of an `and` with timers that may be loose
 
 class Lowering {
  public:
@@ -144,6 +145,7 @@ class Lowering {
   }
 
   void find_loose_timers(std::uint32_t rule, model::CondId id) {
+    if (model_[id].children.size() > kMostBeside) return;   // each timer keeps a list of all other parts
     for (const model::CondId part : model_[id].children) {
       if (!model_[part].loose) continue;
       if (model_[part].op != model::Cond::Op::kFor) {

@@ -275,9 +275,7 @@ class TableBuilder {
           continue;
         }
         for (const program::CellId member : p_.exclusive[g]) {
-          const bool named = std::any_of(rule.writes.begin(), rule.writes.end(),
-                                         [&](const program::Write& w) { return w.cell == member; });
-          if (!named) out.push_back({member, -1.0f});
+          if (!std::ranges::binary_search(rule.writes, member, {}, &program::Write::cell)) out.push_back({member, -1.0f});
         }
       }
       std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
