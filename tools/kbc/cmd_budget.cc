@@ -51,7 +51,7 @@ std::string print_text(const tables::Budget& b, bool image) {
   if (b.mask_bytes != 0) {
     line("  as masks", b.mask_bytes, "bytes more, and code for each atom, where compiled for speed; none with -Os or --compact");
   } else if (!image) {
-    line("  as masks", 0, fmt::format("bytes: with more than {} rules, {} atoms or {} satellites, rules stay lists", mts::kMostMaskedRules, mts::kMostMasked, mts::kMostMasked));
+    line("  as masks", 0, fmt::format("bytes: with more than {} rules, {} atoms, {} satellites or {} planes of conditions, rules stay lists", mts::kMostMaskedRules, mts::kMostMasked, mts::kMostMasked, mts::kMostPlanes));
   }
   line("state", b.state_bytes, "bytes of memory, owned by the caller");
   if (b.compact_state_bytes != 0) line("  compact", b.compact_state_bytes, "bytes of memory instead with --compact; the tables shrink as well");

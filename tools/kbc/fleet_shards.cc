@@ -166,6 +166,8 @@ bool BatchFiles::claim(Session& session) {
   if (failed) session.report(Kind::kCannotMakeFolder, {path("shards"), *failed});
   std::erase_if(missing_, [&](std::size_t shard) {
     const bool mine = failed || claims_.take(path(kClaims), shard);
+    std::error_code ignored;
+    if (mine && std::filesystem::exists(shard_path(shard), ignored)) return true;   // whoever had it in hand has just written it
     if (!mine && elsewhere_.empty()) elsewhere_ = shard_path(shard);
     return !mine;
   });

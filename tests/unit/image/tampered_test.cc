@@ -123,7 +123,11 @@ TEST(TamperedImage, WhoseReadersAreNotThoseThatReadIsRefused) {
       {"words that do not ascend", ImageStatus::kReaders, [](Opened& o) { exchange(o.t.readers[wide_row(o)], o.t.readers[wide_row(o) + 1]); }},
       {"a word twice", ImageStatus::kReaders, [](Opened& o) { set(o.t.readers[wide_row(o) + 1].word, o.t.readers[wide_row(o)].word); }},
       {"a word that is not there", ImageStatus::kReaders, [](Opened& o) { set(o.t.readers[0].word, o.t.shape.words); }},
-      {"a row without rules", ImageStatus::kReaders, [](Opened& o) { set(o.t.readers[0], mts::Readers<std::uint16_t>{}); }},
+      {"a row without rules", ImageStatus::kReaders, [](Opened& o) {
+         set(o.t.readers[0].good[0], 0);
+         set(o.t.readers[0].good[1], 0);
+         set(o.t.readers[0].keyed, 0);
+       }},
       {"a reader that does not ask", ImageStatus::kReaders, [](Opened& o) { set(o.t.readers[0].good[0], o.t.readers[0].good[0] ^ 1u << 5); }},
       {"a key that is no condition of the rule", ImageStatus::kKeys, [](Opened& o) { set(o.t.readers[row_of_key(o, false)].keyed, o.t.readers[row_of_key(o, false)].keyed | 1u); }},
       {"a rule without a key", ImageStatus::kReaders, [](Opened& o) {
