@@ -161,7 +161,7 @@ inline constexpr auto kNoticeOf = [] {
   return all;
 }();
 
-/// Of `K`, whose planes are `planes`: whether what is said of bytes above holds.
+/// Whether what is said of bytes above holds of `K`, which has `kPlanes` planes.
 template <class K, std::uint32_t kPlanes>
 inline constexpr bool kMasksFit = sizeof(kMasksOf<K>) + sizeof(kNoticeOf<K>) + sizeof(Word) * kPlanes <= mask_table_bytes(K::kShape, kPlanes) &&
                                   sizeof(MaskState<K::kShape, kPlanes>) <= mask_state_bytes(K::kShape, kPlanes);

@@ -53,7 +53,8 @@ class Definitions {
   using Polar = std::pair<program::CellId, bool>;   // a fact, or its opposite
 
   Disjunction expand(program::PerceptId id, bool negated);
-  Disjunction product(const Disjunction& a, const Disjunction& b);  void find_parts(program::PerceptId id, bool negated, std::vector<Polar>& found) const;
+  Disjunction product(const Disjunction& a, const Disjunction& b);
+  void find_parts(program::PerceptId id, bool negated, std::vector<Polar>& found) const;
   void find_facts(program::PerceptId id, std::vector<program::CellId>& found) const;
 
   const program::Program& program_;

@@ -29,8 +29,7 @@ using program::Rule;
 class Exclusivity {
  public:
   explicit Exclusivity(const Program& program)
-      : program_(program), group_of_(program::group_of_cells(program)), exclusive_(program.exclusive.size(), true), can_rise_(program.cells.size(), false),
-        writers_(program) {}
+      : program_(program), group_of_(program::group_of_cells(program)), exclusive_(program.exclusive.size(), true), can_rise_(program.cells.size(), false) {}
 
   std::vector<bool> run() {
     for (std::uint32_t group = 0; group < exclusive_.size(); ++group) begin(group);
@@ -108,17 +107,18 @@ class Exclusivity {
       return other.level == rule.level && other.reset == rule.reset && program::net_value(program_, group_of_, other, cell).value_or(0.0f) > 0.0f;
     };
     const auto by_name = [&](program::RuleId id) { return raises(program_[id]); };
-    const bool brought_back = rule.reset && program_[cell].initial > 0.0f;
-    return known->second = brought_back ? std::ranges::any_of(program_.rules, raises) : std::ranges::any_of(writers_.by_name[program::index(cell)], by_name);
+    if (rule.reset && program_[cell].initial > 0.0f) return known->second = std::ranges::any_of(program_.rules, raises);   // a reset may bring it back
+    if (!writers_) writers_.emplace(program_);   // most programs never ask
+    return known->second = std::ranges::any_of(writers_->by_name[program::index(cell)], by_name);
   }
 
   const Program& program_;
   std::vector<std::uint32_t> group_of_;   // by cell
   std::vector<bool> exclusive_;           // by group
   std::vector<bool> can_rise_;            // by cell
-  Writers writers_;
-  std::vector<BroughtBack> brought_back_;                            // ascending by group
-  std::map<std::uint32_t, std::vector<BroughtBack>> unasked_;        // by level: those that each reset so far writes something of
+  std::optional<Writers> writers_;
+  std::vector<BroughtBack> brought_back_;                         // ascending by group
+  std::map<std::uint32_t, std::vector<BroughtBack>> unasked_;     // by level: those of groups that each reset so far writes to
   std::map<std::tuple<CellId, std::uint32_t, bool>, bool> beside_;
 };
 

@@ -330,14 +330,8 @@ bool EventReader::undo() {
     case Do::kUnsafe: back.kind = Do::kSafe; event_.undo_text = event_.text.substr(0, event_.text.find(" not")) + " safe again"; break;
     case Do::kObstacle: back.kind = Do::kRemove; event_.undo_text = back.obstacle.name + " vanishes"; break;
     case Do::kWear: back.kind = Do::kMend; event_.undo_text = event_.text.substr(0, event_.text.find(" loses")) + " has its marking again"; break;
-    case Do::kTag:
-      back.tag = Floor::TagState::kWell;
-      event_.undo_text = subject + " itself again";
-      break;
-    case Do::kSensor:
-      back.fault = Fault::kNone;
-      event_.undo_text = subject + " well again";
-      break;
+    case Do::kTag: back.tag = Floor::TagState::kWell; event_.undo_text = subject + " itself again"; break;
+    case Do::kSensor: back.fault = Fault::kNone; event_.undo_text = subject + " well again"; break;
     case Do::kSteel: back.kind = Do::kNoSteel; event_.undo_text = "steel " + back.obstacle.name + " is gone"; break;
     case Do::kPowerOff: back.kind = Do::kPowerOn; event_.undo_text = "power on"; break;
     default: return false;

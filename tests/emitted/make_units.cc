@@ -4,9 +4,9 @@
 // OUT_DIR/unit_N.cc, OUT_DIR/unit_more.cc with the programs of the seeds, and OUT_DIR/cases.inc that names all cases for main.cc.
 #include <cstdlib>
 #include <fstream>
-#include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "compiler/emit/emit.h"
 #include "compiler/tables/compact.h"
@@ -19,10 +19,10 @@ class Maker {
   explicit Maker(std::string folder) : folder_(std::move(folder)), cases_(folder_ + "/cases.inc") {}
 
   /// False if something could not be written.
-  bool unit(const std::string& name, std::uint64_t first, std::uint64_t last) {
-    std::ofstream unit(folder_ + "/unit_" + name + ".cc", begun_[name] ? std::ios::app : std::ios::trunc);
-    if (!std::exchange(begun_[name], true)) unit << "#include \"tests/emitted/compare.h\"\n";
-    for (std::uint64_t seed = first; seed <= last; ++seed) program(unit, seed);
+  bool unit(const std::string& name, const std::vector<std::uint64_t>& seeds) {
+    std::ofstream unit(folder_ + "/unit_" + name + ".cc");
+    unit << "#include \"tests/emitted/compare.h\"\n";
+    for (const std::uint64_t seed : seeds) program(unit, seed);
     return unit && cases_;
   }
 
@@ -47,7 +47,6 @@ class Maker {
 
   std::string folder_;
   std::ofstream cases_;
-  std::map<std::string, bool> begun_;   // by unit: whether it has been begun
 };
 
 }  // namespace
@@ -58,7 +57,13 @@ int main(int argc, char** argv) {
   const std::uint64_t units = number(2), each = number(3);
   Maker maker(argv[1]);
   bool good = true;
-  for (std::uint64_t u = 0; u < units; ++u) good = maker.unit(std::to_string(u), u * each + 1, (u + 1) * each) && good;
-  for (int i = 4; i < argc; ++i) good = maker.unit("more", number(i), number(i)) && good;
-  return good ? 0 : 1;
+  std::uint64_t seed = 0;
+  std::vector<std::uint64_t> seeds(each);
+  for (std::uint64_t u = 0; u < units; ++u) {
+    for (std::uint64_t& one : seeds) one = ++seed;
+    good = maker.unit(std::to_string(u), seeds) && good;
+  }
+  seeds.clear();
+  for (int i = 4; i < argc; ++i) seeds.push_back(number(i));
+  return maker.unit("more", seeds) && good ? 0 : 1;
 }

@@ -59,8 +59,8 @@ class BatchFiles {
   [[nodiscard]] std::optional<std::vector<sim::batch::Run>> runs(Session& session) const;
   /// How many shards of the whole batch are there.
   [[nodiscard]] std::size_t done() const;
-  /// Makes the folder of shards, and drops from the missing ones those that another process has in hand or has written by now. Of the others it removes what
-  /// processes left that were killed while they wrote. False (reported) if the folder cannot be made.
+  /// Makes the folder of shards, and drops from the missing ones those that another process has in hand or has written by now.
+  /// Of the others it removes what processes left that were killed while they wrote. False (reported) if the folder cannot be made.
   [[nodiscard]] bool claim(Session& session);
   /// Whether `claim` got all missing shards; false (reported) if another process has some in hand.
   [[nodiscard]] bool claimed_all(Session& session) const { return elsewhere_.empty() || refuse(elsewhere_, session); }
