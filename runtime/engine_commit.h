@@ -257,7 +257,7 @@ inline void Engine<S, T>::rearm(std::uint32_t rule, Place at) {
     s.rules[at.word].done &= ~at.bit;
     ask(at.word, at.bit);
   } else if constexpr (kMasked) {
-    if (!holds(rule)) s.rules[at.word].done &= ~at.bit;
+    s.rules[at.word].done &= holding(at.word) | ~at.bit;
   } else if ((s.rules[at.word].pending & at.bit) != 0) {
     s.rules[at.word].pending &= ~at.bit;
     if (!holds(rule)) s.rules[at.word].done &= ~at.bit;

@@ -208,11 +208,6 @@ template <class S, class T>
 
 template <class S, class T>
 inline bool Engine<S, T>::holds(std::uint32_t rule) const {
-  if constexpr (kMasked) {
-    std::uint32_t word = 0;
-    while (word + 1 < kShape.words && t->word_rule[word + 1] <= rule) ++word;
-    return (holding(word) >> (rule - t->word_rule[word]) & 1u) != 0;
-  }
   const auto [begin, end] = conditions_of(rule);
   for (std::uint32_t i = begin; i < end; ++i) {
     if (!literal(t->conditions[i])) return false;
@@ -274,9 +269,7 @@ template <class S, class T>
   if constexpr (kSummaries) {
     if (many_words() && (done & whiles) == 0) bits::note_empty(s.busy_sum, word, shape().words);
   }
-  for (Word left = fire; left != 0; left &= left - 1u) {
-    s.fired_list[s.fired++] = static_cast<Ix>(base + static_cast<std::uint32_t>(std::countr_zero(left)));
-  }
+  note_fired(word, fire);
   return fire;
 }
 

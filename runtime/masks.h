@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bits.h"
 #include "table.h"
 
 namespace mts {
@@ -143,8 +144,7 @@ inline constexpr Word kTimersAtStart = [] {
   Word on = 0;
   for (std::uint32_t i = 0; i < K::kShape.timers; ++i) {
     const std::uint32_t input = K::kTables.timers[i].input, atom = input >> 1;
-    const bool holds = (K::kTables.initial_truth[atom / kWordBits] >> (atom % kWordBits) & 1u) != 0;
-    if (holds != ((input & 1u) != 0)) on |= Word{1} << i;
+    if (bits::test(K::kTables.initial_truth, atom) != ((input & 1u) != 0)) on |= bits::mask(i);
   }
   return on;
 }();

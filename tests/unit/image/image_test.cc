@@ -58,6 +58,30 @@ TEST(Image, OfRandomKnowledgeBasesRunsAsTheirTablesDo) {
   }
 }
 
+// As deep as the language allows. What says least stands innermost.
+TEST(Image, KnowsTheStrengthOfTheDeepestCondition) {
+  using namespace program::testing;
+  ProgramBuilder b({"goal", "control"});
+  b.fact("Least").fact("More").fact("None").satellite("Out");
+  Expression deep = high("Least");
+  for (int i = 0; i < 32; ++i) deep = any({all({deep, high("More")}), high("None")});
+  b.when("deep", "goal", deep, {assign("Out", 0.4f)}).when("flat", "goal", high("Least"), {assign("Out", 1.0f)});
+  const Program program = b.build();
+  const Tables tables = build(program);
+  const LoadedImage image(write_image(tables, program));
+  ASSERT_EQ(image.status(), ImageStatus::kOk);
+  Machine of_tables(program, tables), of_image(program, image);
+  Trial trial(program);
+  trial({});
+  const std::vector<float> given = facts(program, {{"Least", 0.6f}, {"More", 0.9f}});
+  of_tables.tick(facts(program, {}), 100'000);
+  of_image.tick(facts(program, {}), 100'000);
+  const std::string expected = print_json(program, trial.interpreter().tick(given, 100'000));
+  EXPECT_NEAR(trial.value("Out"), 0.7f, 1e-6f);
+  EXPECT_EQ(print_json(program, of_tables.tick(given, 100'000)), expected);
+  EXPECT_EQ(print_json(program, of_image.tick(given, 100'000)), expected);
+}
+
 TEST(Image, WrittenOfAnImageIsTheSameBytes) {
   for (std::uint64_t seed = 1; seed <= program::testing::count_from("KB_RANDOM_COUNT", 500); ++seed) {
     const Program program = program::testing::random_program(seed);
