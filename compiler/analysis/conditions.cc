@@ -96,13 +96,8 @@ class ConditionQuestions {
     });
   }
 
-  /// The first part of the condition that asks which strategy runs, if any.
-  [[nodiscard]] std::optional<CondId> question_of_what_runs(CondId condition) const {
-    for (const CondId id : program::reachable(program_.conds, {condition})) {
-      const Cond& cond = program_[id];
-      if (cond.op == Cond::Op::kIs && program_[cond.cell].kind == program::CellKind::kStrategy) return id;
-    }
-    return std::nullopt;
+  [[nodiscard]] bool asks_what_runs(const Cond& cond) const {
+    return cond.op == Cond::Op::kIs && program_[cond.cell].kind == program::CellKind::kStrategy;
   }
 
   /// Reports rules of the control level that ask which strategy runs, which only that level decides. Other forms, such as `A or Go` and
@@ -110,11 +105,13 @@ class ConditionQuestions {
   void diagnose_control_level() {
     const std::size_t control = program_.levels.size() - 1;
     undecided_.assign(subject_.instances.size(), false);
+    const std::vector<bool> ask = program::marked(program_, [this](const Cond& cond) { return asks_what_runs(cond); });
     ByFamily<CondId> found(subject_);
     for (std::uint32_t i = 0; i < program_.rules.size(); ++i) {
       const Rule& rule = program_.rules[i];
-      if (rule.level != control || Subject::generated(rule)) continue;
-      if (const auto asks = question_of_what_runs(rule.condition)) found.add(RuleId{i}, *asks);
+      if (rule.level != control || Subject::generated(rule) || !ask[program::index(rule.condition)]) continue;
+      const std::vector<CondId> parts = program::reachable(program_.conds, {rule.condition});
+      found.add(RuleId{i}, *std::ranges::find_if(parts, [this](CondId part) { return asks_what_runs(program_[part]); }));
     }
     found.for_each([&](RuleId id, CondId asks, std::uint32_t count) {
       const Rule& rule = program_[id];

@@ -85,6 +85,11 @@ const Definition& Definitions::of(CellId fact, bool negated) {
     if (expanded_.contains(one)) continue;
     cut_ = false;
     Disjunction terms = expand(percept, one.second);
+    if (kept_ > kMostKept && terms.size() > 1) {
+      terms.resize(1);
+      cut_ = true;
+    }
+    for (const Conjunction& all : terms) kept_ += all.size();
     expanded_.emplace(one, &*definitions_.insert({std::move(terms), cut_}).first);
   }
   return *expanded_.at({fact, negated});

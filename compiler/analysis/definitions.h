@@ -37,6 +37,8 @@ class Definitions {
  public:
   /// At most so many `and`s of a definition are kept, and looked into, and only those of at most so many parts.
   static constexpr std::size_t kMostTerms = 512, kMostParts = 256;
+  /// Once all that are kept have so many parts, of each further definition a single `and` is kept.
+  static constexpr std::size_t kMostKept = 1'000'000;
 
   /// `program` must outlive it.
   explicit Definitions(const program::Program& program);
@@ -61,6 +63,7 @@ class Definitions {
   std::map<program::CellId, std::size_t> place_;
   std::set<Definition> definitions_;   // each once
   std::map<Polar, const Definition*> expanded_;
+  std::size_t kept_ = 0;               // parts of all definitions
   bool cut_ = false;                   // the definition that is being expanded has more `and`s than are kept, or longer ones
 };
 

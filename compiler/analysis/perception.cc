@@ -62,7 +62,8 @@ void diagnose_confusable(const model::Model& model, const Program& program, Conf
   std::size_t pairs = 0, of_numbers = 0;
   for (const program::Perceived& one : perceived) {
     if (!confusions.looked_into(one.fact)) {
-      diagnostics.report(Kind::kConfusionOfMany, one.span, {program[one.fact].name, std::to_string(Definitions::kMostTerms), std::to_string(Definitions::kMostParts)});
+      diagnostics.report(Kind::kConfusionOfMany, one.span,
+                         {program[one.fact].name, std::to_string(Definitions::kMostTerms), std::to_string(Definitions::kMostParts), std::to_string(Definitions::kMostKept)});
     }
   }
   for (std::size_t k = 0; k < perceived.size(); ++k) {

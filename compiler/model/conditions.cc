@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "compiler/model/units.h"
+#include "compiler/syntax/syntax.h"
 
 namespace kb::model {
 
@@ -38,6 +40,10 @@ CondId join_conds(Model& model, Cond::Op op, std::vector<CondId> conds) {
   return add_cond(model, std::move(cond));
 }
 
+void report_written_out(Draft& draft, source::Span at, std::string_view asked) {
+  draft.diagnostics.report(Kind::kWrittenOutTooLarge, at, {asked, std::to_string(kMostWrittenOut), std::to_string(syntax::kMaxNesting)});
+}
+
 namespace {
 
 std::optional<syntax::Term> term_of(std::string_view word) {
@@ -66,7 +72,9 @@ std::uint32_t Conditions::add(Pattern pattern) {
 }
 
 std::uint32_t Conditions::compile(syntax::CondId id, source::Span loose) {
+  ++nesting_;
   const std::uint32_t made = add(read(tree_[id]));
+  patterns_[made].nesting = static_cast<std::uint8_t>(--nesting_);
   patterns_[made].loose = loose;
   if (!patterns_[made].same) return made;
   CondId cond{};
@@ -254,6 +262,20 @@ CondId Conditions::negate(CondId part) {
   return known;
 }
 
+/// Whether one of the cells is so. Rules by thousands may each ask `any` of one large group.
+CondId Conditions::ask_any(Cond::Op op, const std::vector<CellId>& cells, syntax::Term term) {
+  constexpr std::size_t kWorthSharing = 8;
+  std::vector<CondId> parts;
+  parts.reserve(cells.size());
+  for (const CellId cell : cells) parts.push_back(ask(op, cell, term));
+  if (parts.size() < kWorthSharing) return join_conds(draft_.model, Cond::Op::kOr, std::move(parts));
+  const std::vector<Cond>& conds = draft_.model.conds;
+  CondId& known = draft_.shared_conds.any[parts];
+  const bool good = index(known) < conds.size() && conds[index(known)].op == Cond::Op::kOr && std::ranges::equal(conds[index(known)].children, parts);
+  if (!good) known = join_conds(draft_.model, Cond::Op::kOr, std::move(parts));
+  return known;
+}
+
 Outcome Conditions::evaluate_event(const Pattern& pattern, Environment values, CondId& made) {
   const Operand operand = references_.evaluate(pattern.ref, values);
   if (operand.kind == Operand::Kind::kBroken) return Outcome::kBroken;
@@ -324,6 +346,10 @@ Outcome Conditions::evaluate_is(const Pattern& pattern, Environment values, Cond
       draft_.diagnostics.report(Kind::kTermOfCondition, references_.span(pattern.ref), {references_.text(pattern.ref)});
       return Outcome::kBroken;
     }
+    if (pattern.nesting + operand.depth > syntax::kMaxNesting) {
+      report_written_out(draft_, references_.span(pattern.ref), references_.text(pattern.ref));
+      return Outcome::kBroken;
+    }
     made = operand.condition;
     return Outcome::kMade;
   }
@@ -336,9 +362,7 @@ Outcome Conditions::evaluate_is(const Pattern& pattern, Environment values, Cond
   }
   std::vector<CellId> satellites;
   if (satellites_of(pattern, *cell, satellites) == Outcome::kBroken) return Outcome::kBroken;
-  std::vector<CondId> parts;
-  for (const CellId satellite : satellites) parts.push_back(ask(Cond::Op::kIs, satellite, pattern.term));
-  made = join_conds(draft_.model, Cond::Op::kOr, std::move(parts));
+  made = ask_any(Cond::Op::kIs, satellites, pattern.term);
   return Outcome::kMade;
 }
 
@@ -358,10 +382,7 @@ Outcome Conditions::evaluate_any(const Pattern& pattern, Environment values, Con
     if (!pattern.sat) asked.push_back(cell);
     else if (satellites_of(pattern, cell, asked) == Outcome::kBroken) return Outcome::kBroken;
   }
-  Cond cond;
-  cond.op = Cond::Op::kOr;
-  for (const CellId cell : asked) cond.children.push_back(ask(pattern.event, cell));
-  made = add_cond(draft_.model, std::move(cond));
+  made = ask_any(pattern.event, asked);
   return Outcome::kMade;
 }
 

@@ -1,6 +1,8 @@
 // Conditions, read in two steps as references are (references.h).
 #pragma once
 
+#include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "compiler/model/references.h"
@@ -28,6 +30,7 @@ class Conditions {
     bool sat = false;                          ///< kIs, kAny
     bool plain = false;                        ///< kIs: neither `is` nor `sat`
     bool same = false;                         ///< the same in all instances
+    std::uint8_t nesting = 0;                  ///< in how many others it stands, at most syntax::kMaxNesting
     source::Span loose;                        ///< kFor: its time, if it is loose: see note [loose timers]
     std::uint32_t duration_us = 0;
     std::uint32_t ref = 0;
@@ -52,14 +55,21 @@ class Conditions {
   Outcome report_many(const Pattern& pattern, const Operand& operand);
   Outcome satellites_of(const Pattern& pattern, CellId cell, std::vector<CellId>& out);
   CondId ask(Cond::Op op, CellId cell, syntax::Term term = syntax::Term::kHigh);
+  CondId ask_any(Cond::Op op, const std::vector<CellId>& cells, syntax::Term term = syntax::Term::kHigh);
   CondId negate(CondId part);
 
   Draft& draft_;
   const syntax::Tree& tree_;
   References& references_;
   bool of_road_ = false;
+  std::uint32_t nesting_ = 0;
   std::vector<Pattern> patterns_;
 };
+
+/// The most parts of a row's condition, with all that it asks of fields of other rows written out: see note [written out].
+inline constexpr std::uint32_t kMostWrittenOut = 4'096;
+/// Reports that `asked`, a field of a row, has more parts, or nests too deep where it is asked for.
+void report_written_out(Draft& draft, source::Span at, std::string_view asked);
 
 /// A new condition of the model.
 CondId add_cond(Model& model, Cond cond);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -110,9 +111,13 @@ struct PlanStatement {
   source::Span span;
 };
 
-/// Conditions that many instances ask for, each made once: `seen` and `is high` by cell, `not` by what it negates. An entry
-/// may be stale, when the instance that made it was withdrawn: before use, check that the condition there is the one looked for.
-struct SharedConds { std::vector<CondId> seen, high, negated; };
+/// Conditions that many instances ask for, each made once: `seen` and `is high` by cell, `not` by what it negates, a long `or` by its
+/// parts. An entry may be stale, when the instance that made it was withdrawn: before use, check that the condition there is the one
+/// looked for.
+struct SharedConds {
+  std::vector<CondId> seen, high, negated;
+  std::map<std::vector<CondId>, CondId> any;
+};
 
 struct Draft {
   Draft(const Forest& f, diagnostics::Diagnostics& d) : forest(f), diagnostics(d) {}

@@ -25,6 +25,7 @@ Operand operand_of(const Model& model, const Value& value) {
       if (!kept.is_resolved) return Operand::of(Operand::Kind::kBroken);  // it could not be read, which has been reported
       Operand operand = Operand::of(Operand::Kind::kCondition);
       operand.condition = kept.resolved;
+      operand.depth = kept.depth;
       return operand;
     }
   };

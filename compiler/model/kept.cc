@@ -1,8 +1,15 @@
 // Conditions that are kept in rows (`when`). They are read when all rows exist: `exit` and `leg` in them are those of the row's leg.
+#include <algorithm>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "compiler/model/conditions.h"
 #include "compiler/model/field_reads.h"
+#include "compiler/syntax/syntax.h"
 
 namespace kb::model {
 namespace {
@@ -53,10 +60,51 @@ class KeptReader {
   std::uint32_t pattern_ = 0;
 };
 
+/// note [written out]
+/// A row's condition may ask for what other rows say, and these for what others say. Each is kept once, but what goes through a condition part
+/// by part meets a shared part as often as it is asked for: 40 rows of which each asks twice for the one before make 2^40. So it has limits.
+struct Extent {
+  std::uint32_t parts = 0;   ///< each `and`, `or`, `not` and `for`, as often as it would be written
+  std::uint32_t depth = 0;   ///< of those, with an `and` in an `and` taken as one, and a small `or` in an `or`
+  std::uint32_t width = 1;   ///< the parts of an `and` or `or` taken so
+};
+
+constexpr std::uint32_t kDeepest = static_cast<std::uint32_t>(syntax::kMaxNesting), kSmallOr = 32;
+
+bool too_large(const Extent& extent) { return extent.parts > kMostWrittenOut || extent.depth > kDeepest; }
+
+class Extents {
+ public:
+  explicit Extents(const std::vector<Cond>& conds) : conds_(conds) {}
+  /// The condition must be the newest of those that are kept: later ones may be withdrawn.
+  Extent of(CondId condition) {
+    while (known_.size() < conds_.size()) known_.push_back(measure(conds_[known_.size()]));
+    return known_[index(condition)];
+  }
+
+ private:
+  [[nodiscard]] Extent measure(const Cond& cond) const {
+    if (cond.cell != CellId::kNone) return {};
+    Extent all{1, 1, 0};
+    for (const CondId id : cond.children) {
+      const Extent& part = known_[index(id)];
+      const Cond::Op op = conds_[index(id)].op;
+      const bool joins = op == cond.op && (op == Cond::Op::kAnd || (op == Cond::Op::kOr && part.width <= kSmallOr));
+      all.parts = std::min(all.parts + part.parts, kMostWrittenOut + 1);
+      all.width += joins ? part.width : 1;
+      all.depth = std::max(all.depth, joins ? part.depth : part.depth + 1);
+    }
+    return all;
+  }
+
+  const std::vector<Cond>& conds_;
+  std::vector<Extent> known_;
+};
+
 /// Conditions written in rows, each after those of other rows that it reads.
 class WrittenConditions {
  public:
-  explicit WrittenConditions(Draft& draft) : draft_(draft), place_of_(draft.model.kept.size(), kNone32) {
+  explicit WrittenConditions(Draft& draft) : draft_(draft), extents_(draft.model.conds), place_of_(draft.model.kept.size(), kNone32) {
     ids_.reserve(draft.kept.size());
     for (const KeptPlace& place : draft.kept) {
       ids_.push_back(std::get<KeptId>(*draft.model.field(draft.model[place.row], place.field)));
@@ -69,11 +117,14 @@ class WrittenConditions {
 
  private:
   [[nodiscard]] KeptCondition& kept(std::uint32_t i) { return draft_.model.kept[index(ids_[i])]; }
+  [[nodiscard]] std::vector<FieldPlace> reads_of(std::uint32_t i) {
+    const RowId leg = draft_.kept[i].leg != kNone32 ? draft_.legs[draft_.kept[i].leg].row : RowId::kNone;
+    return fields_read(draft_, *kept(i).tree, kept(i).condition, leg);
+  }
   [[nodiscard]] std::uint32_t need(std::uint32_t i) {
     const KeptCondition& one = kept(i);
     if (one.tree == nullptr || (one.tree == alone_tree_ && one.condition == alone_)) return kNone32;
-    const RowId leg = draft_.kept[i].leg != kNone32 ? draft_.legs[draft_.kept[i].leg].row : RowId::kNone;
-    const std::vector<FieldPlace> reads = fields_read(draft_, *one.tree, one.condition, leg);
+    const std::vector<FieldPlace> reads = reads_of(i);
     if (reads.empty()) alone_tree_ = one.tree, alone_ = one.condition;
     for (const auto& [row, field] : reads) {
       const KeptId* const id = std::get_if<KeptId>(&draft_.model.fields(draft_.model[row])[field]);
@@ -92,8 +143,14 @@ class WrittenConditions {
     const Outcome outcome = reader_->of_leg(place.leg, made);
     if (outcome == Outcome::kMissing) return set_field(draft_, place.row, place.field, {});   // what it reads is not there, so it is not either
     if (outcome != Outcome::kMade) return;
+    const Extent extent = extents_.of(made);
+    if (too_large(extent) && !reads_of(i).empty()) return report_too_large(i);   // one that asks no rows is as large as it was written
+    kept(i).depth = static_cast<std::uint8_t>(std::min(extent.depth, kDeepest));
     kept(i).resolved = made;
     kept(i).is_resolved = true;
+  }
+  void report_too_large(std::uint32_t i) {
+    report_written_out(draft_, (*kept(i).tree)[kept(i).condition].span, fmt::format("{}.{}", draft_.model[draft_.kept[i].row].name, draft_.kept[i].field));
   }
   void report_circle(std::uint32_t i) {
     place_of_[index(ids_[i])] = kNone32;
@@ -101,6 +158,7 @@ class WrittenConditions {
   }
 
   Draft& draft_;
+  Extents extents_;
   std::vector<KeptId> ids_;                            // beside draft.kept
   std::vector<std::uint32_t> place_of_;                // by kept condition: index into ids_, until it is resolved
   const syntax::Tree* alone_tree_ = nullptr;           // the last condition that reads no row

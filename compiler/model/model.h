@@ -82,6 +82,7 @@ struct KeptCondition {
   syntax::CondId condition{};
   CondId resolved{};
   bool is_resolved = false;
+  std::uint8_t depth = 0;              ///< how deep a written one nests, with what it asks of other rows: see note [written out]
 };
 /// What a field of a row holds; `std::monostate` is a missing field.
 /// Kept small, because a map has millions of fields: places and conditions are in lists of the model.

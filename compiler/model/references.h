@@ -27,6 +27,7 @@ struct Operand {
   CellId cell = CellId::kNone;   ///< kCell; kMember: the cell of the group that the binder ranges over, if it is one
   RowId row = RowId::kNone;
   CondId condition{};
+  std::uint8_t depth = 0;        ///< kCondition: as the row keeps it
   std::uint32_t whole = 0;
   std::vector<CellId> cells;
 
