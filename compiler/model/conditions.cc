@@ -240,8 +240,8 @@ CondId Conditions::ask(Cond::Op op, CellId cell, syntax::Term term) {
   cond.op = op;
   cond.cell = cell;
   cond.term = term;
-  if (term != syntax::Term::kHigh || (op != Cond::Op::kSeen && op != Cond::Op::kIs)) return add_cond(draft_.model, std::move(cond));
-  std::vector<CondId>& shared = op == Cond::Op::kSeen ? draft_.shared_conds.seen : draft_.shared_conds.high;
+  const std::size_t question = static_cast<std::size_t>(op) - static_cast<std::size_t>(Cond::Op::kEvent) + (op == Cond::Op::kIs ? static_cast<std::size_t>(term) : 0);
+  std::vector<CondId>& shared = draft_.shared_conds.asked[question];
   const std::vector<Cond>& conds = draft_.model.conds;
   shared.resize(draft_.model.cells.size());
   CondId& known = shared[index(cell)];

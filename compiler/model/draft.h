@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <memory>
@@ -111,11 +112,12 @@ struct PlanStatement {
   source::Span span;
 };
 
-/// Conditions that many instances ask for, each made once: `seen` and `is high` by cell, `not` by what it negates, a long `or` by its
-/// parts. An entry may be stale, when the instance that made it was withdrawn: before use, check that the condition there is the one
-/// looked for.
+/// Conditions that many instances ask for, each made once: `event`, `lost`, `seen` and `is` with each term by cell, `not` by what it negates,
+/// a long `or` by its parts. An entry may be stale, when the instance that made it was withdrawn: before use, check that the condition there
+/// is the one looked for.
 struct SharedConds {
-  std::vector<CondId> seen, high, negated;
+  std::array<std::vector<CondId>, 3 + kTermWords.size()> asked;
+  std::vector<CondId> negated;
   std::map<std::vector<CondId>, CondId> any;
 };
 

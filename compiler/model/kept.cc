@@ -9,6 +9,7 @@
 
 #include "compiler/model/conditions.h"
 #include "compiler/model/field_reads.h"
+#include "compiler/source/kinds.h"
 #include "compiler/syntax/syntax.h"
 
 namespace kb::model {
@@ -69,7 +70,7 @@ struct Extent {
   std::uint32_t width = 1;   ///< the parts of an `and` or `or` taken so
 };
 
-constexpr std::uint32_t kDeepest = static_cast<std::uint32_t>(syntax::kMaxNesting), kSmallOr = 32;
+constexpr std::uint32_t kDeepest = static_cast<std::uint32_t>(syntax::kMaxNesting);
 
 bool too_large(const Extent& extent) { return extent.parts > kMostWrittenOut || extent.depth > kDeepest; }
 

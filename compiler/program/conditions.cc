@@ -4,12 +4,10 @@
 #include <bit>
 
 #include "compiler/program/hash.h"
+#include "compiler/source/kinds.h"
 
 namespace kb::program {
 namespace {
-
-/// A larger `or` (`any Leg`) is not written out within other conditions: it is one node that all rules share.
-constexpr std::size_t kSmallOr = 32;
 
 std::uint32_t hash_of(const Cond& cond) {
   std::uint64_t hash = mix(static_cast<std::uint64_t>(cond.op), static_cast<std::uint64_t>(cond.term));

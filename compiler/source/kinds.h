@@ -20,6 +20,9 @@ enum class Term : std::uint8_t { kLow, kZero, kHigh };
 inline constexpr std::array<std::string_view, 3> kTermWords{"low", "zero", "high"};
 [[nodiscard]] constexpr std::string_view word(Term term) { return kTermWords[static_cast<std::size_t>(term)]; }
 
+/// An `or` of more parts (`any Leg`) is not written out within other conditions: it is one node that all rules share.
+inline constexpr std::size_t kSmallOr = 32;
+
 /// What runs while no strategy is wanted.
 enum class Idle : std::uint8_t { kStop, kHold, kStrategy };
 
