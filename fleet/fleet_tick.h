@@ -73,7 +73,7 @@ void Fleet<K>::begin_tick(Duration since_last) {
   for (std::uint32_t q = 0; q <= K::kShape.queues; ++q) {
     // `bits` must be enough to tell apart all stamps that robots may hold, and this tick's.
     const std::uint32_t span = clock_.stamp() - (std::min)(clock_.stamp(), clock_.ripe_before()[q]) + 1u;
-    const std::uint32_t bits = 32u - static_cast<std::uint32_t>(std::countl_zero(span));
+    const std::uint32_t bits = 32u - static_cast<std::uint32_t>(std::countl_zero(span - 1u));
     if (bits <= stamp_bits_[q]) continue;
     for (std::uint32_t i = 0; i <= kTimers; ++i) {
       const bool asked = i < kTimers || layout_.timers[i].on != kNoPlane;
