@@ -169,6 +169,7 @@ class Fleet {
 
   void give(std::uint32_t block, std::size_t word, Fact fact, std::uint64_t robots, float certainty);
   void begin_tick(Duration since_last);
+  void note_queue(std::uint32_t queue);
   void tick_blocks(std::uint32_t first, std::uint32_t end, unsigned part);
   void tick_block(std::uint32_t block, unsigned part, FleetAhead& ahead);
   void note_bad_facts(std::uint32_t block);
@@ -213,6 +214,7 @@ class Fleet {
   std::vector<float> weights_;              // by block, fact, robot
   std::vector<Block> blocks_;
   FleetTick now_;
+  std::vector<FleetQueue> queues_;
   std::uint32_t dt_us_ = 0;
 };
 

@@ -8,6 +8,14 @@
 
 namespace mts {
 
+namespace detail {
+/// Makes a word of ones or zeros of each of the lowest bits.
+template <std::size_t kBits>
+void spread_bits(std::uint32_t stamp, std::uint64_t (&words)[kBits]) {
+  for (std::size_t b = 0; b < kBits; ++b) words[b] = std::uint64_t{0} - (stamp >> b & 1u);
+}
+}  // namespace detail
+
 template <class K>
 std::vector<std::uint32_t> Fleet<K>::durations() {
   std::vector<std::uint32_t> us(K::kTables.queue_us, K::kTables.queue_us + K::kShape.queues);
@@ -22,7 +30,7 @@ Fleet<K>::Fleet(std::size_t robots, FleetOptions options)
       memory_(blocks_for(robots),
               {layout_.read_given, layout_.plain_given, layout_.given, traced_ ? layout_.traced_planes : layout_.planes, layout_.traced_planes, layout_.parts, traced_}, kTimers + 1),
       stamp_bits_(K::kShape.queues + 1, 0), weights_(std::size_t{memory_.blocks()} * layout_.weights * kBlockRobots, 0.0f),
-      blocks_(memory_.blocks()) {
+      blocks_(memory_.blocks()), queues_(K::kShape.queues + 1) {
   const auto fill = [&](std::uint32_t block, std::uint32_t plane) { std::fill_n(&memory_.word(block, plane, 0), kPlaneWords, ~std::uint64_t{0}); };
   for (std::uint32_t b = 0; b < memory_.blocks(); ++b) {
     for (std::uint32_t f = 0; f < K::kShape.facts; ++f) {
@@ -81,8 +89,24 @@ void Fleet<K>::begin_tick(Duration since_last) {
     }
     stamp_bits_[q] = bits;
   }
-  now_ = {clock_.ticks() == 1, clock_.stamp(), clock_.last_stamp(), clock_.ripe().data(), clock_.ripe_before().data(), stamp_bits_.data(),
-          memory_.stamps(), &Fleet::fall_back, this};
+  now_ = {.first = clock_.ticks() == 1, .stamp = clock_.stamp(), .last_stamp = clock_.last_stamp(), .ripe = clock_.ripe().data(),
+          .ripe_before = clock_.ripe_before().data(), .bits = stamp_bits_.data(), .queues = queues_.data(), .stamps = memory_.stamps(),
+          .fall_back = &Fleet::fall_back, .fleet = this};
+  detail::spread_bits(now_.stamp, now_.stamp_bits);
+  detail::spread_bits(now_.last_stamp, now_.last_bits);
+  for (std::uint32_t q = 0; q <= K::kShape.queues; ++q) note_queue(q);
+}
+
+template <class K>
+void Fleet<K>::note_queue(std::uint32_t queue) {
+  const std::uint32_t ripe = clock_.ripe()[queue], before = clock_.ripe_before()[queue], bits = stamp_bits_[queue];
+  const bool at_once = (queue < K::kShape.queues ? now_.stamp : now_.last_stamp) < ripe;   // `for 0 s`
+  const std::uint32_t usual = ripe - before <= 1 && !at_once ? bits : 0;
+  FleetQueue& at = queues_[queue];
+  at.short_bits = bits <= FleetQueue::kShort ? usual : 0;
+  at.long_bits = bits > FleetQueue::kShort ? usual : 0;
+  at.rises = std::uint64_t{0} - std::uint64_t{ripe != before};
+  detail::spread_bits(ripe - 1, at.ripe);
 }
 
 template <class K>

@@ -28,8 +28,8 @@ namespace mts {
 
 /// Number of this contract, which includes what fleet.h and kernel_code.h require of emitted files. Every change of the contract raises it.
 /// The number of the tables is kAbi.
-inline constexpr std::uint32_t kFleetAbi = 2;
-// check_abi: 2 48dc3989603d
+inline constexpr std::uint32_t kFleetAbi = 3;
+// check_abi: 3 024321586c38
 
 inline constexpr std::uint32_t kBlockRobots = 512;
 inline constexpr std::uint32_t kPlaneBytes = kBlockRobots / 8;
@@ -102,6 +102,15 @@ struct FleetBlock {
   FleetAhead* ahead;
 };
 
+/// What a tick knows of a duration, if at most one stamp has become ripe; otherwise both numbers of bits are 0. Words of ones or zeros stand
+/// for single bits, so that a kernel spreads them without asking.
+struct FleetQueue {
+  static constexpr std::uint32_t kShort = 5;   ///< with stamps of so many bits it is cheaper to compare all than to find out which is the oldest
+  std::uint32_t short_bits = 0, long_bits = 0; ///< of a stamp, if it is short; if it is not
+  std::uint64_t rises = 0;                     ///< whether a stamp has become ripe
+  std::uint64_t ripe[kShort] = {};             ///< the bits of that stamp
+};
+
 /// What all blocks of a tick share. Arrays by queue and arrays by timer have one more item, for `idle = hold`.
 struct FleetTick {
   bool first = false;                        ///< the first tick: it makes no events
@@ -109,6 +118,8 @@ struct FleetTick {
   const std::uint32_t* ripe = nullptr;         ///< by queue: stamps below this are ripe
   const std::uint32_t* ripe_before = nullptr;  ///< the same on the last tick
   const std::uint32_t* bits = nullptr;         ///< by queue: bits of a stamp
+  const FleetQueue* queues = nullptr;          ///< by queue
+  std::uint64_t stamp_bits[32] = {}, last_bits[32] = {};   ///< the bits of `stamp` and of `last_stamp`, each a word of ones or zeros
   std::byte* const* stamps = nullptr;          ///< by timer: the planes of its stamps, `bits` for each block
   /// Called with the robots of a block that need the scalar engine on this tick, while the block's planes of the last tick still exist.
   void (*fall_back)(void* fleet, const FleetBlock& block, std::uint32_t first_word, const std::uint64_t* robots,

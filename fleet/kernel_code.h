@@ -4,26 +4,21 @@
 #if KB_FLEET_WIDTH == 64
 using V = std::uint64_t;
 [[gnu::always_inline]] inline bool any(V x) { return x != 0; }
-[[gnu::always_inline]] inline V all_of(bool yes) { return V{0} - V{yes}; }
+[[gnu::always_inline]] inline V spread(std::uint64_t w) { return w; }
 #elif KB_FLEET_WIDTH == 256
 typedef std::uint64_t V __attribute__((vector_size(32), may_alias));
 [[gnu::always_inline]] inline bool any(V x) {
   return _mm256_testz_si256(reinterpret_cast<__m256i>(x), reinterpret_cast<__m256i>(x)) == 0;
 }
-[[gnu::always_inline]] inline V all_of(bool yes) {
-  const std::uint64_t w = std::uint64_t{0} - std::uint64_t{yes};
-  return V{w, w, w, w};
-}
+[[gnu::always_inline]] inline V spread(std::uint64_t w) { return V{w, w, w, w}; }
 #else
 typedef std::uint64_t V __attribute__((vector_size(64), may_alias));
 [[gnu::always_inline]] inline bool any(V x) {
   return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(x), reinterpret_cast<__m512i>(x)) != 0;
 }
-[[gnu::always_inline]] inline V all_of(bool yes) {
-  const std::uint64_t w = std::uint64_t{0} - std::uint64_t{yes};
-  return V{w, w, w, w, w, w, w, w};
-}
+[[gnu::always_inline]] inline V spread(std::uint64_t w) { return V{w, w, w, w, w, w, w, w}; }
 #endif
+[[gnu::always_inline]] inline V all_of(bool yes) { return spread(std::uint64_t{0} - std::uint64_t{yes}); }
 
 constexpr std::uint32_t kWidthWords = sizeof(V) / 8;
 
@@ -51,11 +46,11 @@ class Word {
 
   /// The robots in which the timer is over. `input`: its condition; `on`: the same on the last tick; `over`: where it was over then.
   [[gnu::always_inline]] V timer(std::uint32_t timer, std::uint32_t queue, V input, V on, V over) const {
-    return run(timer, queue, tick_.stamp, input, on, over);
+    return run(timer, queue, tick_.stamp, tick_.stamp_bits, input, on, over);
   }
   /// The same for how long the last strategy may be held, counted from the tick before.
   [[gnu::always_inline]] V hold(std::uint32_t timer, std::uint32_t queue, V input, V on, V over) const {
-    return run(timer, queue, tick_.last_stamp, input, on, over);
+    return run(timer, queue, tick_.last_stamp, tick_.last_bits, input, on, over);
   }
 
   /// Notes robots that need the scalar engine.
@@ -68,10 +63,14 @@ class Word {
   }
 
  private:
-  [[gnu::always_inline]] V run(std::uint32_t timer, std::uint32_t queue, std::uint32_t stamp, V input, V on, V over) const {
+  [[gnu::always_inline]] V run(std::uint32_t timer, std::uint32_t queue, std::uint32_t stamp, const std::uint64_t* bits, V input, V on,
+                               V over) const {
     const V still = over & input;
     const V waits = input & ~still;
     if (!any(waits)) return still;
+    const mts::FleetQueue& q = tick_.queues[queue];
+    if (q.short_bits != 0) return still | wait_shortly(q, timer, tick_.ripe[queue], bits, waits, input & ~on);
+    if (q.long_bits != 0) return still | wait_long(q, timer, queue, stamp, bits, waits, input & ~on);
     return still | wait(tick_, block_, word_, timer, queue, stamp, waits, input & ~on);
   }
 
@@ -87,13 +86,9 @@ class Word {
   [[gnu::noinline]] static V wait(const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t word, std::uint32_t timer,
                                   std::uint32_t queue, std::uint32_t stamp, V waits, V begin) {
     const std::uint32_t bits = tick.bits[queue], ripe = tick.ripe[queue], before = tick.ripe_before[queue];
-    std::byte* const stamps = tick.stamps[timer] + (std::size_t{block.index} * bits) * mts::kPlaneBytes + word * sizeof(V);
-    std::uint32_t& oldest = block.oldest[std::size_t{word} * kWidthWords * (sizeof(kTimers) / sizeof(*kTimers)) + timer];
+    std::byte* const stamps = stamps_of(tick, block, word, timer, bits);
+    std::uint32_t& oldest = oldest_of(block, word, timer);
     const bool at_once = stamp < ripe;   // `for 0 s`
-    if (bits <= kShortStamp && ripe - before <= 1 && !at_once) {
-      oldest = ripe;
-      return wait_shortly(stamps, bits, stamp, ripe - 1, waits & all_of(ripe != before), begin);
-    }
     if (oldest >= ripe && !any(begin)) return all_of(false);
     if (any(begin)) {
       for (std::uint32_t b = 0; b < bits; ++b) {
@@ -106,18 +101,45 @@ class Word {
     V over = at_once ? begin : all_of(false);
     for (std::uint32_t s = oldest < before ? before : oldest; s < ripe; ++s) over |= stamped(stamps, bits, s, waits);
     oldest = ripe;
-    if (bits > kShortStamp && any(waits & ~over)) oldest = find_oldest(stamps, bits, ripe, stamp, waits & ~over);
+    if (bits > mts::FleetQueue::kShort && any(waits & ~over)) oldest = find_oldest(stamps, bits, ripe, stamp, waits & ~over);
     return over;
   }
 
-  /// The same where at most one stamp has become ripe. It does not branch on whether any robot has it, which a processor would mispredict.
-  static V wait_shortly(std::byte* stamps, std::uint32_t bits, std::uint32_t stamp, std::uint32_t ripe, V among, V begin) {
-    for (std::uint32_t b = 0; b < bits; ++b) {
-      V& plane = at(stamps, b);
-      plane ^= (plane ^ all_of((stamp >> b & 1u) != 0)) & begin;
-      among &= ~(plane ^ all_of((ripe >> b & 1u) != 0));
+  /// The same for stamps of a few bits, where at most one stamp has become ripe. It does not branch on whether any robot has it, which a
+  /// processor would mispredict. Each of a few durations has its number of bits, so the way out of the loop is guessed right.
+  [[gnu::always_inline]] V wait_shortly(const mts::FleetQueue& q, std::uint32_t timer, std::uint32_t ripe, const std::uint64_t* bits, V waits,
+                                        V begin) const {
+    std::byte* const stamps = stamps_of(tick_, block_, word_, timer, q.short_bits);
+    oldest_of(block_, word_, timer) = ripe;
+    V among = waits & spread(q.rises);
+#pragma GCC unroll 5
+    for (std::uint32_t b = 0; b < mts::FleetQueue::kShort; ++b) {
+      V plane = at(stamps, b);
+      plane ^= (plane ^ spread(bits[b])) & begin;
+      at(stamps, b) = plane;
+      among &= ~(plane ^ spread(q.ripe[b]));
+      if (q.short_bits == b + 1) break;
     }
     return among;
+  }
+
+  /// The same for stamps of many bits: they are compared only where one may be ripe.
+  [[gnu::always_inline]] V wait_long(const mts::FleetQueue& q, std::uint32_t timer, std::uint32_t queue, std::uint32_t stamp, const std::uint64_t* bits,
+                                     V waits, V begin) const {
+    std::byte* const stamps = stamps_of(tick_, block_, word_, timer, q.long_bits);
+    std::uint32_t& oldest = oldest_of(block_, word_, timer);
+    for (std::uint32_t b = 0; b < q.long_bits; ++b) at(stamps, b) ^= (at(stamps, b) ^ spread(bits[b])) & begin;
+    if (!any(waits & ~begin)) oldest = stamp;
+    if (oldest >= tick_.ripe[queue]) return all_of(false);
+    return wait(tick_, block_, word_, timer, queue, stamp, waits, all_of(false));
+  }
+
+  [[nodiscard]] static std::byte* stamps_of(const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t word, std::uint32_t timer,
+                                            std::uint32_t bits) {
+    return tick.stamps[timer] + (std::size_t{block.index} * bits) * mts::kPlaneBytes + word * sizeof(V);
+  }
+  [[nodiscard]] static std::uint32_t& oldest_of(const mts::FleetBlock& block, std::uint32_t word, std::uint32_t timer) {
+    return block.oldest[std::size_t{word} * kWidthWords * (sizeof(kTimers) / sizeof(*kTimers)) + timer];
   }
 
   /// Those of `among` whose stamp is `s`.
@@ -146,9 +168,6 @@ class Word {
     }
     return ripe + ((low - ripe) & mask);
   }
-
-  /// With stamps of at most so many bits it is cheaper to look at all of them than to find out which is the oldest.
-  static constexpr std::uint32_t kShortStamp = 5;
 
   const mts::FleetTick& tick_;
   const mts::FleetBlock& block_;
