@@ -2,7 +2,8 @@
 // loop, ten times a second, from a place of its own in the mission on.
 //
 //   Fleet/N      N robots on one core, scattered: no two neighbours are at the same place, so something happens in every word
-//   Together/N   the same, but the 512 robots of a block are within two seconds of each other, as in a convoy
+//   Profiled/N   the same, compiled with recordings of two other missions as profile
+//   Together/N   as Fleet, but the 512 robots of a block are within two seconds of each other, as in a convoy
 //   Scalar/N     a mts::Mind for each of N robots, with the same facts
 //   Cores/N/T    N scattered robots on T threads
 //   Read, Update memory bandwidth: a pass over as many bytes as a million robots have, reading, and reading and writing
@@ -19,7 +20,8 @@
 #include <tuple>
 
 #include "bench/mission.h"
-#include "route1.kb.fleet.h"
+#include "bench_fleet_profiled.kb/route1.kb.fleet.h"
+#include "bench_fleet_route1.kb/route1.kb.fleet.h"
 
 namespace {
 
@@ -105,11 +107,12 @@ const std::vector<Pattern>& patterns(std::size_t spread) {
   return made;
 }
 
-void give(Fleet& fleet, std::size_t tick, const std::vector<Pattern>& all) {
+template <class F>
+void give(F& fleet, std::size_t tick, const std::vector<Pattern>& all) {
   const std::size_t blocks = fleet.words() / mts::kPlaneWords;
   for (std::size_t block = 0; block < blocks; ++block) {
     for (const News& news : all[block % kPatterns].news(tick)) {
-      fleet.set_word(block * mts::kPlaneWords + news.word, news.fact, news.robots, news.value);
+      fleet.set_word(block * mts::kPlaneWords + news.word, static_cast<typename F::Fact>(news.fact), news.robots, news.value);
     }
   }
 }
@@ -129,10 +132,11 @@ struct Least {
   }
 };
 
+template <class F>
 void run_fleet(benchmark::State& state, std::size_t spread, unsigned threads, bool on_processor = true) {
   const auto robots = static_cast<std::size_t>(state.range(0));
   const std::vector<Pattern>& all = patterns(spread);
-  Fleet fleet(robots);
+  F fleet(robots);
   mts::Crew crew(threads);
   Least ticks, gives;
   // A first mission that is not timed: all robots have begun, timers have as many bits as they need.
@@ -154,16 +158,20 @@ void run_fleet(benchmark::State& state, std::size_t spread, unsigned threads, bo
   state.counters["give_ns"] = 1e9 * gives.mean(robots);
   state.counters["bits"] = fleet.width();
   state.counters["bytes_a_robot"] = static_cast<double>(fleet.bytes()) / static_cast<double>(robots);
+  state.counters["resting"] = static_cast<double>(fleet.resting());
   state.counters["alone"] = static_cast<double>(fleet.alone());
 }
 
-void FleetScattered(benchmark::State& state) { run_fleet(state, mission().size(), 1); }
+void FleetScattered(benchmark::State& state) { run_fleet<Fleet>(state, mission().size(), 1); }
 BENCHMARK(FleetScattered)->Name("Fleet")->Arg(4'096)->Arg(65'536)->Arg(1'000'448)->UseManualTime()->Iterations(1)->Unit(benchmark::kNanosecond);
 
-void Together(benchmark::State& state) { run_fleet(state, 20, 1); }
+void Profiled(benchmark::State& state) { run_fleet<profiled::Fleet>(state, mission().size(), 1); }
+BENCHMARK(Profiled)->Arg(4'096)->Arg(65'536)->Arg(1'000'448)->UseManualTime()->Iterations(1)->Unit(benchmark::kNanosecond);
+
+void Together(benchmark::State& state) { run_fleet<Fleet>(state, 20, 1); }
 BENCHMARK(Together)->Arg(65'536)->Arg(1'000'448)->UseManualTime()->Iterations(1);
 
-void Cores(benchmark::State& state) { run_fleet(state, mission().size(), static_cast<unsigned>(state.range(1)), false); }
+void Cores(benchmark::State& state) { run_fleet<Fleet>(state, mission().size(), static_cast<unsigned>(state.range(1)), false); }
 BENCHMARK(Cores)->ArgsProduct({{65'536, 1'000'448}, {1, 2}})->UseManualTime()->Iterations(1);
 
 /// The same robots, one by one.

@@ -31,9 +31,9 @@ macro(kb_read_arguments caller)
   get_filename_component(source ${file} ABSOLUTE)
   get_filename_component(stem ${file} NAME_WLE)
   set(options ${arg_OPTIONS})
-  foreach(ours --namespace --emit --output -o --out --out-dir --depfile --fleet --map)   # what CMake has to know as well
+  foreach(ours --namespace --emit --output -o --out --out-dir --depfile --fleet --profile --map)   # what CMake has to know as well
     if("${ours}" IN_LIST options)
-      message(FATAL_ERROR "${caller}: OPTIONS cannot take ${ours}; NAMESPACE, FLEET, MAP and kb_add_image do")
+      message(FATAL_ERROR "${caller}: OPTIONS cannot take ${ours}; NAMESPACE, FLEET, PROFILE, MAP and kb_add_image do")
     endif()
   endforeach()
   if(arg_LIBRARY)
@@ -48,20 +48,20 @@ macro(kb_read_arguments caller)
   kb_stamp_of_kbc(stamp)
 endmacro()
 
-# kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [FLEET] [MAP] [OPTIONS option...])
+# kb_add_library(NAME FILE.kb [NAMESPACE ns] [LIBRARY folder] [FLEET [PROFILE recording...]] [MAP] [OPTIONS option...])
 #
 # A static library NAME from a knowledge base: FILE.kb is compiled to FILE.kb.h and FILE.kb.cc, which a program includes as
 #   #include "FILE.kb.h"
 # (or "NAME.kb/FILE.kb.h", where it has several of one name) and uses as `ns::Mind`; ns may be a::b, and is by default the stem of
 # FILE. No two of one program have the same. The library is made again when FILE.kb or any file
 # that it imports has changed, also indirectly. FLEET adds FILE.kb.fleet.h and FILE.kb.fleet.cc, for many robots at once
-# (docs/fleets.md); MAP adds FILE.kb.map.h, the roads of its routes for Waymark::controllers (docs/controllers.md). LIBRARY is another
+# (docs/fleets.md), and PROFILE names facts that its robots usually have, CSV, for which it becomes faster; MAP adds FILE.kb.map.h, the roads of its routes for Waymark::controllers (docs/controllers.md). LIBRARY is another
 # folder for `std.*`; OPTIONS go to `kbc compile` as they are, as in OPTIONS -Werror. Whoever links NAME into a shared library sets
 # POSITION_INDEPENDENT_CODE on it.
 #
 # Works in Waymark's own tree, in a project that has it as a subdirectory, and in one that has called find_package(Waymark).
 function(kb_add_library name file)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "FLEET;MAP" "NAMESPACE;LIBRARY" "OPTIONS")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "FLEET;MAP" "NAMESPACE;LIBRARY" "PROFILE;OPTIONS")
   kb_read_arguments(kb_add_library)
   set(header ${out}/${stem}.kb.h)
   set(code ${out}/${stem}.kb.cc)
@@ -69,6 +69,12 @@ function(kb_add_library name file)
   if(arg_FLEET)
     list(APPEND options --fleet)
     list(APPEND made ${out}/${stem}.kb.fleet.h ${out}/${stem}.kb.fleet.cc)
+    foreach(recording ${arg_PROFILE})
+      get_filename_component(recording ${recording} ABSOLUTE)
+      list(APPEND options --profile ${recording})
+    endforeach()
+  elseif(arg_PROFILE)
+    message(FATAL_ERROR "kb_add_library: PROFILE is of a FLEET")
   endif()
   if(arg_MAP)
     list(APPEND options --map)

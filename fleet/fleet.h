@@ -138,6 +138,9 @@ class Fleet {
   [[nodiscard]] std::size_t alone() const;
   /// Number of blocks of 512 robots that the last tick passed over.
   [[nodiscard]] std::size_t passed_over() const;
+  /// Number of blocks that will be ticked without the planes that a profile leaves at rest (`kbc compile --fleet --profile`); 0 without one,
+  /// and in traced fleets.
+  [[nodiscard]] std::size_t resting() const;
   /// Memory of all planes, stamps and certainties, and of the clock, which grows with the fleet's age: it keeps 8 bytes for each tick
   /// within the longest duration that rules wait for or hold a strategy. `for 1 h` at a tick a millisecond is 29 MB, whatever the number
   /// of robots; it has its full size after that hour.
@@ -146,6 +149,9 @@ class Fleet {
  private:
   static constexpr std::uint32_t kNone = 0xFFFF'FFFFu;
   static constexpr std::size_t kCacheBytes = std::size_t{8} << 20;   // from this size on, planes are prefetched
+  static constexpr std::uint32_t kTicksToRest = 16;   // so often a block is asked whether it rests, and when nothing happens there
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0};
+  alignas(kPlaneBytes) static constexpr std::uint64_t kAllRobots[kPlaneWords] = {kAll, kAll, kAll, kAll, kAll, kAll, kAll, kAll};
   static constexpr std::uint32_t kTimers = K::kShape.timers;   // the timer of `idle = hold` comes after these
   [[nodiscard]] static constexpr std::uint32_t queue_of(std::uint32_t timer) {
     return timer < kTimers ? K::kTables.timers[timer].queue : K::kShape.queues;
@@ -161,6 +167,7 @@ class Fleet {
     bool given = true;     ///< some fact is new
     bool quiet = false;    ///< the last tick changed nothing
     bool passed = false;
+    bool resting = false;  ///< see note [resting blocks] in kernel.h; nobody is alone
     std::vector<std::uint64_t> bad;   ///< by fact and word: robots for which it was bad on the last tick; empty as long as none was given
     std::int64_t due_us = 0;  ///< if quiet: no timer runs out earlier
     std::uint64_t lonely[kPlaneWords] = {};   ///< robots that are alone
@@ -183,6 +190,7 @@ class Fleet {
     const std::size_t after = robots_ - (std::min)(robots_, word * 64);
     return after >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << after) - 1;
   }
+  [[nodiscard]] const std::uint64_t* there(std::uint32_t block) const { return block + 1 == memory_.blocks() ? last_robots_ : kAllRobots; }
   [[nodiscard]] const Alone* alone_at(FleetPlace at) const {
     for (const auto& alone : blocks_[at.block].alone) {
       if (alone->lane == at.lane) return alone.get();
@@ -207,7 +215,7 @@ class Fleet {
   const FleetTables& layout_;
   const FleetKernels& kernels_;
   FleetKernel kernel_;
-  bool traced_;
+  bool traced_, can_rest_;
   FleetClock clock_;
   FleetMemory memory_;
   std::vector<std::uint32_t> stamp_bits_;   // by queue
@@ -216,6 +224,7 @@ class Fleet {
   FleetTick now_;
   std::vector<FleetQueue> queues_;
   std::uint32_t dt_us_ = 0;
+  alignas(kPlaneBytes) std::uint64_t last_robots_[kPlaneWords];   // which robots of the last block there are
 };
 
 }  // namespace mts

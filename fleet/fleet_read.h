@@ -89,6 +89,11 @@ std::size_t Fleet<K>::passed_over() const {
 }
 
 template <class K>
+std::size_t Fleet<K>::resting() const {
+  return static_cast<std::size_t>(std::count_if(blocks_.begin(), blocks_.end(), [](const Block& b) { return b.resting; }));
+}
+
+template <class K>
 RobotTick<K> Fleet<K>::read_alone(const Alone& alone) const {
   const Decision<K> decision(alone.state);
   RobotTick<K> out;

@@ -26,11 +26,16 @@ std::vector<std::uint32_t> Fleet<K>::durations() {
 template <class K>
 Fleet<K>::Fleet(std::size_t robots, FleetOptions options)
     : robots_(robots), layout_(FleetForm<K>::tables()), kernels_(FleetForm<K>::kernels(options.most_bits)),
-      kernel_(options.traced ? kernels_.traced : kernels_.plain), traced_(options.traced), clock_(durations(), options.first_stamp),
+      kernel_(options.traced ? kernels_.traced : kernels_.plain), traced_(options.traced), can_rest_(!traced_ && kernels_.resting != nullptr),
+      clock_(durations(), options.first_stamp),
       memory_(blocks_for(robots),
-              {layout_.read_given, layout_.plain_given, layout_.given, traced_ ? layout_.traced_planes : layout_.planes, layout_.traced_planes, layout_.parts, traced_}, kTimers + 1),
+              {.read_given = layout_.read_given, .plain_given = layout_.plain_given, .given = layout_.given,
+               .planes = traced_ ? layout_.traced_planes : layout_.planes, .busy_given = layout_.busy_given, .busy_planes = layout_.busy_planes,
+               .rest = can_rest_ ? layout_.rest : nullptr, .first_part = layout_.traced_planes, .parts = layout_.parts, .traced = traced_},
+              kTimers + 1),
       stamp_bits_(K::kShape.queues + 1, 0), weights_(std::size_t{memory_.blocks()} * layout_.weights * kBlockRobots, 0.0f),
       blocks_(memory_.blocks()), queues_(K::kShape.queues + 1) {
+  for (std::size_t w = 0; w < kPlaneWords; ++w) last_robots_[w] = within((std::max<std::size_t>(blocks_.size(), 1) - 1) * kPlaneWords + w);
   const auto fill = [&](std::uint32_t block, std::uint32_t plane) { std::fill_n(&memory_.word(block, plane, 0), kPlaneWords, ~std::uint64_t{0}); };
   for (std::uint32_t b = 0; b < memory_.blocks(); ++b) {
     for (std::uint32_t f = 0; f < K::kShape.facts; ++f) {
@@ -64,6 +69,7 @@ void Fleet<K>::give(std::uint32_t block, std::size_t word, Fact fact, std::uint6
     const std::uint64_t now = bit ? there | robots : there & ~robots;
     changed |= now ^ there;
     there = now;
+    if (plane >= layout_.busy_given && plane < layout_.read_given && now != 0) b.resting = false;
   });
   if (changed != 0) b.given = true;
   const std::uint32_t w = layout_.facts[f].weight;
@@ -118,7 +124,7 @@ void Fleet<K>::tick_blocks(std::uint32_t first, std::uint32_t end, unsigned part
   for (std::uint32_t i = first; i < end; ++i) {
     const std::uint32_t block = upwards ? i : first + (end - 1 - i);
     FleetAhead ahead;
-    if (large && block + 1 < end) ahead = memory_.prefetch(block + 1);
+    if (large && block + 1 < end) ahead = memory_.prefetch(block + 1, blocks_[block + 1].resting);
     Block& b = blocks_[block];
     b.passed = b.quiet && !b.given && clock_.now_us() < b.due_us;
     if (!b.passed) tick_block(block, part, ahead);
@@ -140,15 +146,21 @@ void Fleet<K>::tick_block(std::uint32_t block, unsigned part, FleetAhead& ahead)
   for (std::uint64_t& word : b.lonely) word = 0;
   for (const auto& alone : b.alone) b.lonely[alone->lane / 64] |= std::uint64_t{1} << (alone->lane % 64);
   const std::size_t before = b.alone.size();
-  kernel_(now_, {memory_.given(block), memory_.made(block), memory_.room(part), block, memory_.oldest(block, 0), &ahead});
-  memory_.change_places(block, part);
+  const bool resting = b.resting;
+  bool woke = false;
+  (resting ? kernels_.resting : kernel_)(now_, {.given = memory_.given(block), .before = memory_.made(block), .now = memory_.room(part, resting),
+                                                .index = block, .oldest = memory_.oldest(block, 0), .ahead = &ahead,
+                                                .robots = there(block), .woke = &woke});
+  memory_.change_places(block, part, resting);
   for (std::size_t i = 0; i < before; ++i) {
     const FleetPlace there{block, b.alone[i]->lane};
     port().tick(there, b.alone[i]->state, dt_us_, [&](std::uint32_t fact) { return weight(there, fact); });
   }
   for (const auto& alone : b.alone) alone->back = port().put_back({block, alone->lane}, alone->state);
   // If facts are new, the comparison is not worth its cost: something will have changed.
-  b.quiet = !b.given && !now_.first && b.alone.empty() && memory_.same(block, part);
+  b.quiet = !b.given && !now_.first && b.alone.empty() && memory_.same(block, part, resting);
+  if (resting) b.resting = !woke && b.alone.empty();
+  else if (can_rest_ && (b.quiet || (clock_.ticks() + block) % kTicksToRest == 0)) b.resting = b.alone.empty() && memory_.come_to_rest(block, there(block));
   b.given = false;
   if (b.quiet) b.due_us = due_us(block);
 }

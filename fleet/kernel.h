@@ -9,6 +9,12 @@
 // and each new plane is stored at once and read again from there. A kernel works on *words* of a plane, as wide as the processor's
 // registers: 64, 256 or 512 bits; the layout is the same for all.
 //
+// note [resting blocks]
+// Some planes are the same for all robots most of the time. They come last. A block in which all of them have the bit that they have *at rest*
+// is resting, and a kernel ticks it that neither reads nor writes them. So each thread has a second place for new planes, in which these are
+// always at rest. A word in which one of them wakes is ticked by the whole kernel, in that place, which the block keeps; what it gives
+// in exchange is at rest, since the block was.
+//
 // note [stamps]
 // All robots of a fleet share a clock. A *stamp* is the number of one of its distinct times. When a timer begins to wait in a robot, the low
 // bits of the stamp are stored there, one plane for each bit. For each duration the clock knows which stamps are old enough (`ripe`); a timer
@@ -17,6 +23,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "../runtime/table.h"
 
@@ -28,8 +35,8 @@ namespace mts {
 
 /// Number of this contract, which includes what fleet.h and kernel_code.h require of emitted files. Every change of the contract raises it.
 /// The number of the tables is kAbi.
-inline constexpr std::uint32_t kFleetAbi = 3;
-// check_abi: 3 024321586c38
+inline constexpr std::uint32_t kFleetAbi = 4;
+// check_abi: 4 5bf7d6bf858a
 
 inline constexpr std::uint32_t kBlockRobots = 512;
 inline constexpr std::uint32_t kPlaneBytes = kBlockRobots / 8;
@@ -68,6 +75,8 @@ struct FleetTables {
   std::uint32_t planes, traced_planes;   ///< all planes of a block; `traced_planes` counts those of traced fleets too
   std::uint32_t several;                 ///< plane: several strategies are active; kNoPlane if that cannot be
   std::uint32_t weights;                 ///< facts whose certainty is kept as a number
+  std::uint32_t busy_given, busy_planes; ///< the planes from here to `read_given` and to `planes` can rest
+  const std::uint8_t* rest;              ///< from busy_planes on: the bit of a plane at rest. Planes that the host gives are 0 at rest
   const FleetPart* parts;                ///< numbered from traced_planes on
   const FleetFact* facts;
   const FleetSatellite* satellites;
@@ -100,6 +109,8 @@ struct FleetBlock {
   std::uint32_t index;
   std::uint32_t* oldest;    ///< by 64-bit word, then by timer: no waiting robot has an older stamp. A wider word uses the items of its first 64 bits
   FleetAhead* ahead;
+  const std::uint64_t* robots;   ///< by 64-bit word, aligned to 64 bytes: which robots there are. Others wake nobody
+  bool* woke;               ///< a resting kernel sets it if it has changed planes that were at rest
 };
 
 /// What a tick knows of a duration, if at most one stamp has become ripe; otherwise both numbers of bits are 0. Words of ones or zeros stand
@@ -134,6 +145,7 @@ using FleetKernel = void (*)(const FleetTick& tick, const FleetBlock& block);
 struct FleetKernels {
   std::uint32_t bits;          ///< robots at once
   FleetKernel plain, traced;
+  FleetKernel resting;         ///< as `plain`, where all planes that can rest do, also in `now`, and are not written; or nullptr
 };
 
 /// How many of the widths 64, 256, 512 this processor supports.

@@ -53,6 +53,20 @@ class Word {
     return run(timer, queue, tick_.last_stamp, tick_.last_bits, input, on, over);
   }
 
+  /// What is known of the timers of this word.
+  struct Oldest { std::uint32_t stamps[sizeof(kTimers) / sizeof(*kTimers)]; };
+  [[nodiscard]] Oldest oldest() const {
+    Oldest copy;
+    std::memcpy(copy.stamps, &oldest_of(block_, word_, 0), sizeof(copy.stamps));
+    return copy;
+  }
+  /// Of a resting kernel: whether it has to give up. Then it leaves timers as they were; stamps it has given them will be given again.
+  [[gnu::always_inline]] bool wakes(V robots, const Oldest& oldest) const {
+    if (!any(robots & at(reinterpret_cast<const std::byte*>(block_.robots + word_ * kWidthWords), 0))) return false;
+    std::memcpy(&oldest_of(block_, word_, 0), oldest.stamps, sizeof(oldest.stamps));
+    return true;
+  }
+
   /// Notes robots that need the scalar engine.
   [[gnu::always_inline]] void contest(V robots) { contested_ |= robots; }
   [[gnu::always_inline]] void fall_back() const {

@@ -76,6 +76,8 @@ struct FleetPlace {
 /// for others to read, up to `given` those that it gives only in traced fleets, up to `planes` those that the kernel makes.
 struct FleetPlanes {
   std::uint32_t read_given, plain_given, given, planes;
+  std::uint32_t busy_given = 0, busy_planes = 0;   ///< from here to `read_given` and to `planes`: those that can rest, see note [resting blocks]
+  const std::uint8_t* rest = nullptr;      ///< by plane from `busy_planes` on; nullptr if this fleet never rests
   std::uint32_t first_part = kNoPlane;   ///< the number of parts[0]
   const FleetPart* parts = nullptr;
   bool traced = false;
@@ -118,25 +120,44 @@ class FleetMemory {
   /// By timer: see FleetBlock::oldest.
   [[nodiscard]] std::uint32_t* oldest(std::uint32_t block, std::uint32_t word) { return oldest_.data() + (std::size_t{block} * kPlaneWords + word) * timers_; }
 
-  /// Makes sure that each of `parts` threads has a place in which it makes the planes of a block.
+  /// Makes sure that each of `parts` threads has places in which it makes the planes of a block: see note [resting blocks].
   void make_room(unsigned parts) {
-    while (room_.size() < parts) {
+    while (room_.size() < std::size_t{2} * parts) {
       owned_.emplace_back(made_bytes());
       room_.push_back(owned_.back().get());
+      if (room_.size() % 2 == 0 && planes_.rest != nullptr) lay_to_rest(room_.back());
     }
   }
-  [[nodiscard]] std::byte* room(unsigned part) const { return room_[part]; }
+  [[nodiscard]] std::byte* room(unsigned part, bool resting) const { return room_[place(part, resting)]; }
   /// Exchanges the planes of a block with those that thread `part` has just made.
-  void change_places(std::uint32_t block, unsigned part) { std::swap(now_[block], room_[part]); }
+  void change_places(std::uint32_t block, unsigned part, bool resting) { std::swap(now_[block], room_[place(part, resting)]); }
+
+  /// Whether all planes of a block that can rest do, for the robots that there are. If so, those of others are laid to rest as well.
+  [[nodiscard]] bool come_to_rest(std::uint32_t block, const std::uint64_t* robots) const {
+    const auto is = [&](std::uint32_t plane, bool bit) {
+      const std::uint64_t* const words = &word(block, plane, 0);
+      std::uint64_t others = 0;
+      for (std::uint32_t w = 0; w < kPlaneWords; ++w) others |= (bit ? ~words[w] : words[w]) & robots[w];
+      return others == 0;
+    };
+    for (std::uint32_t p = planes_.busy_planes; p < planes_.planes; ++p) {
+      if (!is(p, planes_.rest[p - planes_.busy_planes] != 0)) return false;
+    }
+    for (std::uint32_t p = planes_.busy_given; p < planes_.read_given; ++p) {
+      if (!is(p, false)) return false;
+    }
+    lay_to_rest(made(block));
+    return true;
+  }
 
   /// Whether the block's planes and those in the thread's place are the same.
-  [[nodiscard]] bool same(std::uint32_t block, unsigned part) const { return std::memcmp(now_[block], room_[part], made_bytes()) == 0; }
+  [[nodiscard]] bool same(std::uint32_t block, unsigned part, bool resting) const { return std::memcmp(now_[block], room(part, resting), made_bytes()) == 0; }
 
-  /// Prefetches the planes that the host gave a block. Returns those that the kernel made, to be prefetched later.
-  [[nodiscard]] FleetAhead prefetch(std::uint32_t block) const {
-    FleetAhead given{this->given(block), this->given(block) + std::size_t{planes_.read_given} * kPlaneBytes};
+  /// Prefetches the planes that the host gave a block, without those at rest. Returns those that the kernel made, to be prefetched later.
+  [[nodiscard]] FleetAhead prefetch(std::uint32_t block, bool resting) const {
+    FleetAhead given{this->given(block), this->given(block) + std::size_t{resting ? planes_.busy_given : planes_.read_given} * kPlaneBytes};
     given.fetch(planes_.read_given);
-    return {made(block), made(block) + made_bytes()};
+    return {made(block), made(block) + (resting ? std::size_t{planes_.busy_planes - planes_.given} * kPlaneBytes : made_bytes())};
   }
 
   /// The bit of one robot in a plane or a part; false if there is no such plane.
@@ -216,6 +237,13 @@ class FleetMemory {
   }
 
  private:
+  static std::size_t place(unsigned part, bool resting) { return std::size_t{2} * part + (resting ? 1u : 0u); }
+  void lay_to_rest(std::byte* made) const {
+    for (std::uint32_t p = planes_.busy_planes; p < planes_.planes; ++p) {
+      std::memset(made + std::size_t{p - planes_.given} * kPlaneBytes, planes_.rest[p - planes_.busy_planes] != 0 ? 0xFF : 0, kPlaneBytes);
+    }
+  }
+
   [[nodiscard]] std::uint64_t part(std::uint32_t block, std::uint32_t number, std::uint32_t word) const {
     const FleetPart& p = planes_.parts[number - planes_.first_part];
     return operand(block, p.a, word) & operand(block, p.b, word);
@@ -239,7 +267,7 @@ class FleetMemory {
   PlaneMemory given_, made_;
   std::vector<std::byte*> now_;           // by block, in made_ or owned_
   std::vector<PlaneMemory> owned_;
-  std::vector<std::byte*> room_;          // by part, in made_ or owned_
+  std::vector<std::byte*> room_;          // by part, two each, in made_ or owned_
   std::vector<PlaneMemory> stamps_;       // by timer
   std::vector<std::byte*> stamp_at_;      // where they begin
   std::vector<std::uint32_t> oldest_;

@@ -150,10 +150,15 @@ class LayoutPrinter {
   }
 
   void tables() {
+    const bool rest = !in_.form.resting.empty();
+    std::string bits;
+    for (const bool bit : in_.form.rest) bits += bit ? "1, " : "0, ";
+    line("constexpr std::uint8_t kRest[] = {{{}0}};\n", bits);
     line("constexpr mts::FleetTables kFleetTables = {{");
     line("    .read_given = {},\n    .plain_given = {},\n    .given = {},", in_.form.read_given, in_.form.plain_given, in_.form.given);
     line("    .planes = {},\n    .traced_planes = {},", in_.form.plain_planes, in_.form.planes.size());
     line("    .several = {},\n    .weights = {},", plane(PlaneKind::kSeveral, 0), weights_);
+    line("    .busy_given = {},\n    .busy_planes = {},\n    .rest = kRest,", rest ? in_.form.busy_given : in_.form.read_given, rest ? in_.form.busy_planes : in_.form.plain_planes);
     line("    .parts = kParts,");
     line("    .facts = kFacts,\n    .satellites = kSatellites,\n    .strategies = kStrategies,\n    .rules = kRules,");
     line("    .timers = kTimers,\n    .values = kValues,");
@@ -190,22 +195,22 @@ std::string header(const std::string& ns, const FleetFiles& files) {
 }
 
 /// The tables, and the kernel for each width of words.
-void emit_kernels(const std::string& ns, std::string& s) {
+void emit_kernels(const std::string& ns, bool rest, std::string& s) {
+  const auto kernels = [&](int bits) {
+    const std::string in = fmt::format("::{}::fleet_kernel::width_{}", ns, bits);
+    return fmt::format("      {{{1}, {0}::tick_block<false>, {0}::tick_block<true>, {2}}},\n", in, bits, rest ? in + "::tick_resting_block" : "nullptr");
+  };
   fmt::format_to(Out(s),
                  "const mts::FleetTables& mts::FleetForm<::{0}::Knowledge>::tables() {{ return ::{0}::fleet_kernel::kFleetTables; }}\n\n"
                  "const mts::FleetKernels& mts::FleetForm<::{0}::Knowledge>::kernels(std::uint32_t most_bits) {{\n"
                  "  static constexpr mts::FleetKernels kKernels[] = {{\n"
-                 "      {{64, ::{0}::fleet_kernel::width_64::tick_block<false>, ::{0}::fleet_kernel::width_64::tick_block<true>}},\n"
-                 "#ifdef MTS_FLEET_X86\n"
-                 "      {{256, ::{0}::fleet_kernel::width_256::tick_block<false>, ::{0}::fleet_kernel::width_256::tick_block<true>}},\n"
-                 "      {{512, ::{0}::fleet_kernel::width_512::tick_block<false>, ::{0}::fleet_kernel::width_512::tick_block<true>}},\n"
-                 "#endif\n"
+                 "{1}#ifdef MTS_FLEET_X86\n{2}{3}#endif\n"
                  "  }};\n"
                  "  std::uint32_t widest = mts::fleet_widths() - 1;\n"
                  "  while (widest > 0 && kKernels[widest].bits > most_bits) --widest;\n"
                  "  return kKernels[widest];\n}}\n\n"
                  "template class mts::Fleet<::{0}::Knowledge>;\n\n",
-                 ns);
+                 ns, kernels(64), kernels(256), kernels(512));
 }
 
 std::string source_text(const FleetInput& in, const FleetFiles& files) {
@@ -215,7 +220,7 @@ std::string source_text(const FleetInput& in, const FleetFiles& files) {
   LayoutPrinter(in, s).print();
   fmt::format_to(Out(s), "}}  // namespace\n}}  // namespace {0}::fleet_kernel\n\n#define KB_FLEET_SOURCE \"{1}\"\n#include <waymark/fleet/widths.h>\n#undef KB_FLEET_SOURCE\n\n", ns,
                  files.source_name);
-  emit_kernels(ns, s);
+  emit_kernels(ns, !in.form.resting.empty(), s);
   fmt::format_to(Out(s),
                  "#else\nnamespace {0}::fleet_kernel {{\nnamespace {{\n"
                  "#if KB_FLEET_WIDTH == 64\nnamespace width_64 {{\n#elif KB_FLEET_WIDTH == 256\nnamespace width_256 {{\n#else\nnamespace width_512 {{\n#endif\n"
@@ -228,8 +233,8 @@ std::string source_text(const FleetInput& in, const FleetFiles& files) {
 
 }  // namespace
 
-Cpp cpp_fleet(const program::Program& program, const tables::Tables& tables, const CppOptions& options, const FleetFiles& files) {
-  FleetInput in{program, tables, options, tables::build_fleet(program, tables), {}};
+Cpp cpp_fleet(const program::Program& program, const tables::Tables& tables, const CppOptions& options, const FleetFiles& files, const tables::FleetRest& rest) {
+  FleetInput in{program, tables, options, tables::build_fleet(program, tables, rest), {}};
   in.names = make_fleet_names(program, in.form);
   return {header(options.name_space, files), source_text(in, files)};
 }

@@ -125,7 +125,8 @@ class KernelPrinter {
     for (std::size_t i = steps_.size(); i-- > 1;) {
       const FleetStep& s = steps_[i];
       if (s.kind == StepKind::kPut && !recomputed_[i]) ask(stored, s.a, i);
-      if (s.kind == StepKind::kFallBack) ask(asked, s.a, i);
+      if (s.kind == StepKind::kFallBack || s.kind == StepKind::kWake) ask(asked, s.a, i);
+      if (s.kind == StepKind::kLater) named_[i] = !asked[i].empty() || !stored[i].empty();
       if (!combines(s.kind) && !waits(s.kind)) continue;
       named_[i] = !asked[i].empty() && !is_inline(i);
       std::vector<std::size_t> made = std::move(asked[i]);   // the steps where its text stands
@@ -184,7 +185,7 @@ class KernelPrinter {
       case StepKind::kLevel: return line("\n  // ---- level {}\n  word.settle();", in_.program.levels[s.what]);
       case StepKind::kFire: return remark(s);
       case StepKind::kLater:
-        if (uses_[i] > 0) line("const V {} = word.later();", in_.names.steps[i]);
+        if (named_[i]) line("const V {} = word.later();", in_.names.steps[i]);
         return;
       case StepKind::kAnd:
       case StepKind::kOr:
@@ -201,6 +202,7 @@ class KernelPrinter {
       case StepKind::kFallBack:
         contests_ = true;
         return line("word.contest({});", value(s.a, false));
+      case StepKind::kWake: return line("\n  if (word.wakes({}, oldest)) return false;\n", value(s.a, false));
       case StepKind::kTraced:
         fall_back();
         line("if constexpr (kTraced) {{");
@@ -244,6 +246,31 @@ class KernelPrinter {
   bool in_traced_ = false, contests_ = false;
 };
 
+/// The kernel for words whose planes at rest rest: see note [planes at rest] in compiler/tables/fleet_rest.h.
+void emit_resting(const FleetInput& in, std::string& out) {
+  FleetInput resting = in;
+  resting.form.steps = in.form.resting;
+  resting.names = make_fleet_names(in.program, resting.form);
+  out +=
+      "/// The same where all planes from busy_planes on are at rest. False if one of them wakes: then the word is as it was.\n"
+      "[[gnu::always_inline]] inline bool tick_resting(const mts::FleetTick& tick, const mts::FleetBlock& block, std::uint32_t number) {\n"
+      "  Word word(tick, block, number);\n";
+  const bool wakes = std::ranges::any_of(resting.form.steps, [](const FleetStep& step) { return step.kind == StepKind::kWake; });
+  if (wakes) out += "  const Word::Oldest oldest = word.oldest();\n";
+  KernelPrinter(resting, out).print();
+  out +=
+      "  word.fall_back();\n"
+      "  return true;\n"
+      "}\n\n"
+      "void tick_resting_block(const mts::FleetTick& tick, const mts::FleetBlock& block) {\n"
+      "  for (std::uint32_t word = 0; word < mts::kPlaneWords / kWidthWords; ++word) {\n"
+      "    if (tick_resting(tick, block, word)) continue;\n"
+      "    tick_word<false>(tick, block, word);\n"
+      "    *block.woke = true;\n"
+      "  }\n"
+      "}\n\n";
+}
+
 }  // namespace
 
 void emit_fleet_kernel(const FleetInput& in, std::string& out) {
@@ -254,7 +281,9 @@ void emit_fleet_kernel(const FleetInput& in, std::string& out) {
       "  Word word(tick, block, number);\n";
   KernelPrinter(in, out).print();
   out +=
-      "}\n\n"
+      "}\n\n";
+  if (!in.form.resting.empty()) emit_resting(in, out);
+  out +=
       "template <bool kTraced>\n"
       "void tick_block(const mts::FleetTick& tick, const mts::FleetBlock& block) {\n"
       "  for (std::uint32_t word = 0; word < mts::kPlaneWords / kWidthWords; ++word) tick_word<kTraced>(tick, block, word);\n"

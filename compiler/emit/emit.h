@@ -8,6 +8,7 @@
 
 #include "compiler/model/model.h"
 #include "compiler/program/program.h"
+#include "compiler/tables/fleet.h"
 #include "compiler/tables/tables.h"
 
 namespace kb::emit {
@@ -41,7 +42,7 @@ struct FleetFiles {
   std::uint64_t mind_print = 0;   ///< Cpp::print of the mind
 };
 [[nodiscard]] Cpp cpp_fleet(const program::Program& program, const tables::Tables& tables, const CppOptions& options,
-                            const FleetFiles& files);
+                            const FleetFiles& files, const tables::FleetRest& rest = {});
 
 /// What stands in the header of the roads that legs lead along, and of the road of the present leg (controllers/road_map.h). Empty if no
 /// leg leads along a road, or a map does not say where its roads lie. Same program, same bytes.

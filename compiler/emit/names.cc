@@ -120,7 +120,7 @@ std::string plane_text(const program::Program& program, const tables::FleetForm&
 FleetNames make_fleet_names(const program::Program& program, const tables::FleetForm& form) {
   FleetNames names;
   // Names that the kernel uses itself.
-  Scope scope{"Plane", "V", "Word", "tick", "block", "word", "kTraced", "kWidthWords", "any", "all_of", "zeros", "several", "kGivenPlanes"};
+  Scope scope{"Plane", "V", "Word", "tick", "block", "word", "kTraced", "kWidthWords", "any", "all_of", "zeros", "several", "oldest", "kGivenPlanes"};
   for (const tables::FleetPlane& plane : form.planes) {
     names.texts.push_back(plane_text(program, form, plane));
     names.planes.push_back(scope.make(names.texts.back()));

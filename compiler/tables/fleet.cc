@@ -35,7 +35,8 @@ bool is_given(PlaneKind kind) {
 
 /// Numbers the planes in the order of their memory: first those that the host gives, those of a fact next to each other and those that no
 /// kernel reads behind the others; then those that the kernel makes. In both parts the planes that only traced fleets have come last.
-void given_first(FleetForm& f) {
+/// Of the planes that untraced kernels read and write, those in `rest` come last.
+void given_first(FleetForm& f, const FleetRest& rest) {
   std::vector<std::uint32_t> order(f.planes.size()), place(f.planes.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto part = [&](std::uint32_t i) {
@@ -44,17 +45,23 @@ void given_first(FleetForm& f) {
   };
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     if (part(a) != part(b)) return part(a) < part(b);
+    if (const bool rests = rest.contains(key_of(f.planes[b])); rest.contains(key_of(f.planes[a])) != rests) return rests;
     return part(a) <= 2 && f.planes[a].of < f.planes[b].of;
   });
   std::vector<FleetPlane> planes;
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     const int of = part(order[i]);
+    const auto resting = rest.find(key_of(f.planes[order[i]]));
+    if (of == 0 && resting == rest.end()) f.busy_given = i + 1;
+    if (of == 3 && resting == rest.end()) f.busy_planes = i + 1;
+    if (of == 3 && resting != rest.end()) f.rest.push_back(resting->second);
     f.read_given += of == 0 ? 1 : 0;
     f.plain_given += of <= 1 ? 1 : 0;
     f.given += of <= 2 ? 1 : 0;
     place[order[i]] = i;
     planes.push_back(f.planes[order[i]]);
   }
+  f.busy_planes = std::max(f.busy_planes, f.given);
   f.plain_planes += f.given - f.plain_given;
   f.planes = std::move(planes);
   for (FleetCode& code : f.satellites) {
@@ -85,27 +92,44 @@ void add_derived(FleetForm& f, const DerivedPlanes& derived) {
 
 class FleetBuilder {
  public:
-  FleetBuilder(const program::Program& program, const Tables& tables, const DerivedPlanes& derived)
-      : p_(program), t_(tables), derived_(derived), truth_(program, tables, derived), rules_(truth_.rules), logic_(truth_.logic), f_(truth_.form),
+  /// `rest`: planes that are taken to be at rest.
+  FleetBuilder(const program::Program& program, const Tables& tables, const DerivedPlanes& derived, const FleetRest& rest = {})
+      : p_(program), t_(tables), derived_(derived), rest_(rest), truth_(program, tables, derived, rest_), rules_(truth_.rules), logic_(truth_.logic), f_(truth_.form),
         fire_(program.rules.size(), kZeros) {}
 
-  FleetForm build() {
+  /// `last`: planes that come last in memory.
+  FleetForm build(const FleetRest& last = {}) {
+    tick();
+    for (std::uint32_t f = 0; f < p_.facts; ++f) truth_.plane(PlaneKind::kBad, f);
+    f_.plain_planes = static_cast<std::uint32_t>(f_.planes.size());
+    traced();
+    f_.steps = std::move(logic_.steps);
+    given_first(f_, last);
+    add_derived(f_, derived_);
+    return std::move(f_);
+  }
+  /// The tick of robots in which the planes of `rest` rest, with the planes of `whole`.
+  std::vector<FleetStep> build_resting(const FleetForm& whole) {
+    tick();
+    if (const Ref wakes = truth_.wakes(); wakes != kZeros) logic_.append({StepKind::kWake, 0, wakes});
+    std::map<PlaneKey, std::uint32_t> places;
+    for (std::uint32_t i = 0; i < whole.planes.size(); ++i) places[key_of(whole.planes[i])] = i;
+    for (FleetStep& step : logic_.steps) {
+      if (step.kind == StepKind::kLoad || step.kind == StepKind::kPut) step.what = places.at(key_of(f_.planes[step.what]));
+    }
+    return std::move(logic_.steps);
+  }
+
+ private:
+  void tick() {
     f_.weighed.assign(p_.facts, false);
     f_.exclusive = rules_.exclusive();
     truth_.notice_all();
     for (std::uint32_t level = 0; level < p_.levels.size(); ++level) run_level(level);
     decide();
     keep_codes();
-    for (std::uint32_t f = 0; f < p_.facts; ++f) truth_.plane(PlaneKind::kBad, f);
-    f_.plain_planes = static_cast<std::uint32_t>(f_.planes.size());
-    traced();
-    f_.steps = std::move(logic_.steps);
-    given_first(f_);
-    add_derived(f_, derived_);
-    return std::move(f_);
   }
 
- private:
   // ---- a level
 
   void run_level(std::uint32_t level) {
@@ -129,9 +153,15 @@ class FleetBuilder {
     const Ref input = truth_.literal(t_.timers[i].input);
     const Ref on = truth_.load(PlaneKind::kTimerOn, i), over = truth_.load(PlaneKind::kTimerOver, i);
     truth_.store(PlaneKind::kTimerOn, i, input);
-    const Ref now = logic_.append({StepKind::kTimer, i, input, on, over});
+    const Ref now = wait({StepKind::kTimer, i, input, on, over});
     truth_.store(PlaneKind::kTimerOver, i, now);
     truth_.set_timer(i, now);
+  }
+
+  /// Appends the step of a timer, unless it is plain what comes out.
+  Ref wait(const FleetStep& step) {
+    if (step.a == kZeros) return kZeros;
+    return step.c == kOnes ? step.a : logic_.append(step);
   }
 
   [[nodiscard]] bool keeps_done(std::uint32_t r) const {
@@ -290,7 +320,7 @@ class FleetBuilder {
     const Ref holding = logic_.both(any_held, some ^ 1u);
     const Ref on = truth_.load(PlaneKind::kHoldOn, 0), over = truth_.load(PlaneKind::kHoldOver, 0);
     truth_.store(PlaneKind::kHoldOn, 0, holding);
-    const Ref expired = logic_.append({StepKind::kHold, t_.shape.timers, holding, on, over});
+    const Ref expired = wait({StepKind::kHold, t_.shape.timers, holding, on, over});
     truth_.store(PlaneKind::kHoldOver, 0, expired);
     for (std::uint32_t u = 0; u < p_.strategies; ++u) {
       const Ref idle = logic_.both(truth_.load(PlaneKind::kHeld, u), some ^ 1u);
@@ -317,6 +347,7 @@ class FleetBuilder {
   const program::Program& p_;
   const Tables& t_;
   const DerivedPlanes& derived_;
+  const FleetRest rest_;
   FleetTruth truth_;
   FleetRules& rules_;
   FleetLogic& logic_;
@@ -334,11 +365,13 @@ std::string against_fleet(const Tables& tables) {
   return {};
 }
 
-FleetForm build_fleet(const program::Program& program, const Tables& tables) {
+FleetForm build_fleet(const program::Program& program, const Tables& tables, const FleetRest& rest) {
   const DerivedPlanes none;
   const FleetForm all_kept = FleetBuilder(program, tables, none).build();
   const DerivedPlanes derived = derived_planes(all_kept, program);
-  return FleetBuilder(program, tables, derived).build();
+  FleetForm form = FleetBuilder(program, tables, derived).build(rest);
+  if (!rest.empty()) form.resting = FleetBuilder(program, tables, derived, rest).build_resting(form);
+  return form;
 }
 
 }  // namespace kb::tables

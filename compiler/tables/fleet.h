@@ -9,7 +9,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "compiler/program/program.h"
@@ -38,6 +40,12 @@ struct FleetPlane {
   std::uint32_t of = 0, bit = 0;
 };
 
+using PlaneKey = std::tuple<FleetPlane::Kind, std::uint32_t, std::uint32_t>;   ///< kind, of, bit
+[[nodiscard]] inline PlaneKey key_of(const FleetPlane& plane) { return {plane.kind, plane.of, plane.bit}; }
+
+/// Planes that are the same for all robots most of the time, and the bit that they have then: see note [planes at rest].
+using FleetRest = std::map<PlaneKey, bool>;
+
 /// `a & b`, where each operand is a plane or another part, written as `number << 1 | negated`: a plane has its own number, a part
 /// its number plus the number of planes. See note [derived planes].
 struct FleetPart { std::uint32_t a = 0, b = 0; };
@@ -61,6 +69,9 @@ struct FleetForm {
   std::uint32_t plain_planes = 0;     ///< how many planes come before those that the kernel of traced fleets makes
   std::vector<FleetCode> satellites;
   std::vector<FleetStep> steps;       ///< the tick
+  std::uint32_t busy_given = 0, busy_planes = 0;   ///< from here to `read_given` and to `plain_planes` are planes that can rest
+  std::vector<bool> rest;             ///< by plane from `busy_planes` on: its bit at rest. The host's are 0 at rest
+  std::vector<FleetStep> resting;     ///< the tick where all of these rest; empty if there are none
   std::vector<FleetPart> parts;       ///< ascending: of planes and of parts before
   std::vector<FleetDerived> derived;
   std::vector<bool> weighed;          ///< by fact: its certainty is needed to compute strengths
@@ -75,6 +86,6 @@ inline constexpr std::uint32_t kMostFleetRules = 2'000;
 [[nodiscard]] std::string against_fleet(const Tables& tables);
 
 /// Pure. Cost: rules times the cells that they write, and for each cell the pairs of rules that disagree about it.
-[[nodiscard]] FleetForm build_fleet(const program::Program& program, const Tables& tables);
+[[nodiscard]] FleetForm build_fleet(const program::Program& program, const Tables& tables, const FleetRest& rest = {});
 
 }  // namespace kb::tables

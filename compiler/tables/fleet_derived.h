@@ -11,16 +11,12 @@
 
 #include <cstdint>
 #include <map>
-#include <tuple>
 #include <vector>
 
 #include "compiler/program/program.h"
 #include "compiler/tables/fleet.h"
 
 namespace kb::tables {
-
-using PlaneKey = std::tuple<FleetPlane::Kind, std::uint32_t, std::uint32_t>;   ///< kind, of, bit
-[[nodiscard]] inline PlaneKey key_of(const FleetPlane& plane) { return {plane.kind, plane.of, plane.bit}; }
 
 struct DerivedPlanes {
   /// A plane that is kept, or `a & b` of parts before this one (`part << 1 | negated`).

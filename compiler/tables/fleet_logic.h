@@ -25,6 +25,7 @@ struct FleetStep {
     kHold,     ///< whether the last strategy has been held too long; a: none is active and one is held; b, c as for kTimer
     kPut,      ///< a becomes the plane `what`
     kFallBack, ///< the robots of a are left to the scalar engine on this tick, beside those of earlier kFallBack steps
+    kWake,     ///< of a resting kernel: in the robots of a, planes that were at rest change; it gives up if there are any
     kTraced,   ///< all further steps are for traced fleets only
     kLevel,    ///< a remark: level `what` begins here
     kFire,     ///< a remark: rule `what` fires for the robots of a

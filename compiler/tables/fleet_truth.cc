@@ -7,8 +7,8 @@ namespace kb::tables {
 using AtomKind = AtomOrigin::Kind;
 using program::Term;
 
-FleetTruth::FleetTruth(const program::Program& program, const Tables& tables, const DerivedPlanes& derived)
-    : rules(program, tables), p_(program), t_(tables), derived_(derived), timer_(tables.shape.timers, kZeros), seen_(program.facts, kZeros),
+FleetTruth::FleetTruth(const program::Program& program, const Tables& tables, const DerivedPlanes& derived, const FleetRest& rest)
+    : rules(program, tables), p_(program), t_(tables), derived_(derived), rest_(rest), timer_(tables.shape.timers, kZeros), seen_(program.facts, kZeros),
       was_seen_(program.facts, kZeros) {
   make_codes();
   load_strategies();
@@ -21,6 +21,7 @@ std::uint32_t FleetTruth::plane(PlaneKind kind, std::uint32_t of, std::uint32_t 
 }
 
 Ref FleetTruth::load(PlaneKind kind, std::uint32_t of, std::uint32_t bit) {
+  if (const auto resting = rest_.find({kind, of, bit}); resting != rest_.end()) return resting->second ? kOnes : kZeros;
   const auto at = derived_.roots.find({kind, of, bit});
   if (at == derived_.roots.end()) return logic.load(plane(kind, of, bit));
   const Ref value = part(at->second.part);
@@ -35,7 +36,14 @@ Ref FleetTruth::part(std::uint32_t number) {
 
 void FleetTruth::store(PlaneKind kind, std::uint32_t of, Ref value, std::uint32_t bit) {
   if (derived_.roots.contains({kind, of, bit})) return;
-  logic.append({FleetStep::Kind::kPut, plane(kind, of, bit), value});
+  if (rest_.contains({kind, of, bit})) left_[{kind, of, bit}] = value;
+  else logic.append({FleetStep::Kind::kPut, plane(kind, of, bit), value});
+}
+
+Ref FleetTruth::wakes() {
+  Ref wakes = kZeros;
+  for (const auto& [key, value] : left_) wakes = logic.either(wakes, value ^ (rest_.at(key) ? 1u : 0u));
+  return wakes;
 }
 
 void FleetTruth::make_codes() {

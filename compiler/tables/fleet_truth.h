@@ -17,8 +17,8 @@ using PlaneKind = FleetPlane::Kind;
 /// Makes planes and the steps that read them. After `set_code` conditions read the new value of a satellite.
 class FleetTruth {
  public:
-  /// `derived` must outlive this.
-  FleetTruth(const program::Program& program, const Tables& tables, const DerivedPlanes& derived);
+  /// `derived` and `rest` must outlive this.
+  FleetTruth(const program::Program& program, const Tables& tables, const DerivedPlanes& derived, const FleetRest& rest);
 
   // ---- planes
 
@@ -27,6 +27,8 @@ class FleetTruth {
   Ref load(PlaneKind kind, std::uint32_t of, std::uint32_t bit = 0);
   /// Makes the value the plane's, if the plane is kept.
   void store(PlaneKind kind, std::uint32_t of, Ref value, std::uint32_t bit = 0);
+  /// Where a plane that is taken to be at rest has another bit now.
+  Ref wakes();
 
   // ---- truth
 
@@ -64,6 +66,8 @@ class FleetTruth {
   const program::Program& p_;
   const Tables& t_;
   const DerivedPlanes& derived_;
+  const FleetRest& rest_;
+  std::map<PlaneKey, Ref> left_;                                    // of planes at rest: the last value that was stored
   std::map<PlaneKey, std::uint32_t> planes_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> attention_;   // by fact: satellites that draw attention to it
   std::map<I, std::size_t> uses_;                                   // by literal, in the level at hand

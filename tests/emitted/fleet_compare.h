@@ -38,14 +38,15 @@ program::Tick record_of(const program::Program& p, const mts::RobotTick<K>& robo
 }
 
 /// Two fleets of some blocks: a traced one whose every tick is compared, and one of another width that must run the same
-/// strategies. Twenty of their robots have an interpreter; facts are given to robots and to words of robots.
+/// strategies. Twenty of their robots have an interpreter; facts are given to robots and to words of robots. On a calm day nobody sees
+/// anything most of the time, so that blocks rest in between.
 template <class K>
 class FleetTrial {
  public:
   static constexpr std::size_t kRobots = 1'100, kWatched = 20;
 
-  FleetTrial(std::uint64_t seed, std::uint32_t bits)
-      : seed_(seed), program_(program::testing::random_program(seed)), traced_(kRobots, {.traced = true, .most_bits = bits}),
+  FleetTrial(std::uint64_t seed, std::uint32_t bits, bool calm = false)
+      : seed_(seed), calm_(calm), program_(program::testing::random_program(seed)), traced_(kRobots, {.traced = true, .most_bits = bits}),
         plain_(kRobots, {.traced = false, .most_bits = bits == 64 ? 512u : 64u, .first_stamp = kNumberedAnew - static_cast<std::uint32_t>(kTicks) / 2}) {
     for (std::size_t i = 0; i < kWatched; ++i) {
       robots_.push_back(i < 4 ? 1096 + i : (seed * 37 + i * 53) % 1096);
@@ -56,25 +57,45 @@ class FleetTrial {
   }
 
   bool agrees() {
-    for (std::size_t tick = 0; tick < kTicks; ++tick) {
-      for (std::size_t i = 0; i < kWatched; ++i) {
-        for (std::uint32_t f = 0; f < program_.facts; ++f) give(i, f, traces_[i][tick].facts[f]);
-      }
-      if (tick % 3 == 1) give_word(tick);
-      const std::uint32_t dt_us = traces_[0][tick].dt_us;
+    for (std::size_t tick = 0; tick < (calm_ ? kCalmDays : 1) * kTicks; ++tick) {
+      if (calm_ && tick % kTicks == 0) forget();
+      const bool calm = calm_ && tick % kTicks < kCalm;
+      if (!calm) tell(tick);
+      const std::uint32_t dt_us = calm ? kCalmTick_us : traces_[0][tick % kTicks].dt_us;
       traced_.tick(mts::microseconds(dt_us));
       plain_.tick(mts::microseconds(dt_us), crew_);
       for (std::size_t i = 0; i < kWatched; ++i) {
         if (!same(i, tick, oracles_[i].tick(given_[i], dt_us))) return false;
       }
+      const std::size_t resting = plain_.resting();
+      woke_ = woke_ || resting < resting_;
+      resting_ = resting;
     }
     return true;
   }
+  /// Whether a block rested, and no longer does.
+  [[nodiscard]] bool woke() const { return woke_; }
 
  private:
-  static constexpr std::size_t kTicks = 50;
+  static constexpr std::size_t kTicks = 50, kCalm = 40, kCalmDays = 4;
+  static constexpr std::uint32_t kCalmTick_us = 100'000;
   static constexpr std::uint32_t kNumberedAnew = 0xC000'0000u;   // the stamp at which a fleet's clock does that, here in the middle of the trial
 
+  void tell(std::size_t tick) {
+    for (std::size_t i = 0; i < kWatched; ++i) {
+      for (std::uint32_t f = 0; f < program_.facts; ++f) give(i, f, traces_[i][tick % kTicks].facts[f]);
+    }
+    if (tick % 3 == 1) give_word(tick);
+  }
+  void forget() {
+    for (std::uint32_t f = 0; f < program_.facts; ++f) {
+      for (std::size_t word = 0; word < plain_.words(); ++word) {
+        traced_.set_word(word, static_cast<typename K::Fact>(f), ~std::uint64_t{0}, 0.0f);
+        plain_.set_word(word, static_cast<typename K::Fact>(f), ~std::uint64_t{0}, 0.0f);
+      }
+      for (std::vector<float>& given : given_) given[f] = 0.0f;
+    }
+  }
   void give(std::size_t i, std::uint32_t f, float value) {
     const bool same = given_[i][f] == value || (given_[i][f] != given_[i][f] && value != value);
     if (same) return;
@@ -87,7 +108,7 @@ class FleetTrial {
     const std::size_t word = robots_[tick % kWatched] / 64;
     const std::uint32_t f = static_cast<std::uint32_t>(tick) % program_.facts;
     const std::uint64_t mask = 0xA5A5'5A5A'F0F0'0F0Full * (tick | 1);
-    const float value = traces_[0][tick].facts[f];
+    const float value = traces_[0][tick % kTicks].facts[f];
     traced_.set_word(word, static_cast<typename K::Fact>(f), mask, value);
     plain_.set_word(word, static_cast<typename K::Fact>(f), mask, value);
     for (std::size_t i = 0; i < kWatched; ++i) {
@@ -122,6 +143,8 @@ class FleetTrial {
   static bool got_strategy(const program::Tick& tick) { return tick.strategy != program::CellId::kNone; }
 
   std::uint64_t seed_;
+  bool calm_, woke_ = false;
+  std::size_t resting_ = 0;
   program::Program program_;
   mts::Fleet<K> traced_, plain_;
   mts::Crew crew_{2};
@@ -131,9 +154,17 @@ class FleetTrial {
   std::vector<std::vector<float>> given_;
 };
 
+/// `rest`: blocks must rest on a calm day, and wake again.
 template <class K>
-bool fleet_agrees(std::uint64_t seed) {
-  return FleetTrial<K>(seed, 512).agrees() && FleetTrial<K>(seed, 64).agrees();
+bool fleet_agrees(std::uint64_t seed, bool rest) {
+  for (const std::uint32_t bits : {512u, 64u}) {
+    FleetTrial<K> calm(seed, bits, true);
+    if (!FleetTrial<K>(seed, bits).agrees() || !calm.agrees()) return false;
+    if (calm.woke() || !rest) continue;
+    std::printf("seed %llu: no block rested and woke\n", static_cast<unsigned long long>(seed));
+    return false;
+  }
+  return true;
 }
 
 }  // namespace kb::emitted

@@ -6,6 +6,7 @@
 #include <future>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,7 +16,9 @@
 #include "compiler/model/ground.h"
 #include "compiler/tables/compact.h"
 #include "compiler/tables/fleet.h"
+#include "compiler/tables/fleet_rest.h"
 #include "tools/kbc/named_files.h"
+#include "tools/kbc/recorded_input.h"
 #include "sim/mind/control_words.h"
 #include "tools/kbc/support.h"
 #include "tools/kbc/trace/output_file.h"
@@ -37,6 +40,7 @@ struct CompileOptions {
   std::string name_space;
   std::string depfile;
   std::string form = "cpp";
+  std::vector<std::string> profile;
   bool compact = false;
   bool fleet = false;
   bool map = false;
@@ -120,9 +124,16 @@ bool can_name_files(const CompileOptions& options, const std::vector<std::string
   return against.empty();
 }
 
+// What the outputs are made of: the knowledge base, its imports, and recordings.
+std::vector<std::string> files_read(const CompileOptions& options, const Session& session) {
+  std::vector<std::string> read = session.files_read();
+  std::copy_if(options.profile.begin(), options.profile.end(), std::back_inserter(read), [](const std::string& path) { return path != "-"; });
+  return read;
+}
+
 // The same for the dependency file.
-bool can_list_files(const std::vector<std::string>& outputs, Session& session) {
-  for (const auto* list : {&outputs, &session.files_read()}) {
+bool can_list_files(std::initializer_list<const std::vector<std::string>*> lists, Session& session) {
+  for (const auto* list : lists) {
     for (const std::string& path : *list) {
       if (path.find_first_of("\r\n") == std::string::npos) continue;
       session.report(Kind::kNameNotSayable, {"a dependency file", path, "a line break"});
@@ -173,6 +184,24 @@ std::string roads_lacking(const model::Model& model) {
   return "route that leads along a road of a map";
 }
 
+/// The planes that the profile leaves at rest, none without a profile; nothing if a recording cannot be read (reported).
+std::optional<tables::FleetRest> planes_at_rest(const CompileOptions& options, driver::Compilation& compiled, Session& session) {
+  std::vector<tables::FleetMission> missions;
+  auto messages = session.diagnostics(compiled.sources);
+  for (const std::string& path : options.profile) {
+    const RecordedInput input = open_recorded({.facts = path, .readings = "", .dt = ""}, compiled.program, compiled.sources, messages);
+    if (input.reader == nullptr) return std::nullopt;
+    tables::FleetMission& mission = missions.emplace_back();
+    while (const trace::FactsRow* row = input.reader->next()) {
+      mission.dt_us.push_back(row->dt_us);
+      mission.facts.insert(mission.facts.end(), row->facts.begin(), row->facts.end());
+    }
+    if (input.reader->failed()) return std::nullopt;
+  }
+  if (missions.empty()) return tables::FleetRest{};
+  return tables::planes_at_rest(tables::build_fleet(compiled.program, compiled.tables), compiled.tables, missions);
+}
+
 /// Nothing if an error was reported. An image is taken from `compiled`.
 Files emit_files(const CompileOptions& options, driver::Compilation& compiled, const std::vector<std::string>& names,
                  const std::string& name_space, Session& session) {
@@ -198,8 +227,10 @@ Files emit_files(const CompileOptions& options, driver::Compilation& compiled, c
   }
   Files files = {{names[0], std::move(cpp.header)}, {names[1], std::move(cpp.source)}};
   if (options.fleet) {
+    const std::optional<tables::FleetRest> rest = planes_at_rest(options, compiled, session);
+    if (!rest) return {};
     emit::Cpp fleet = emit::cpp_fleet(compiled.program, compiled.tables, {.name_space = name_space, .header_name = file_name(2)},
-                                      {.plain_header = file_name(0), .source_name = file_name(3), .mind_print = cpp.print});
+                                      {.plain_header = file_name(0), .source_name = file_name(3), .mind_print = cpp.print}, *rest);
     files.push_back({names[2], std::move(fleet.header)});
     files.push_back({names[3], std::move(fleet.source)});
   }
@@ -246,12 +277,13 @@ int compile(const CompileOptions& options, Session& session) {
   auto messages = session.diagnostics(compiled->sources);
   sim::check_controls(compiled->program, messages);
   if (refuse_form(options, *compiled, session)) return kErrors;
-  if (!options.depfile.empty() && !can_list_files(names, session)) return kErrors;
+  const std::vector<std::string> read = files_read(options, session);
+  if (!options.depfile.empty() && !can_list_files({&names, &read}, session)) return kErrors;
   if (!make_folder_of(names[0], session)) return kErrors;
   Files files = emit_files(options, *compiled, names, name_space, session);
   if (files.empty()) return kErrors;
   if (options.form == "cpp") diagnose_hidden(options, files.front(), session);
-  if (!options.depfile.empty()) files.push_back({options.depfile, print_depfile(files, session.files_read())});
+  if (!options.depfile.empty()) files.push_back({options.depfile, print_depfile(files, read)});
   const bool large = compiled->program.rules.size() >= tables::kWorthAThread;
   const auto freed = std::async(large ? std::launch::async : std::launch::deferred, [&compiled] { compiled.reset(); });
   return session.write_files(files) ? session.exit_code() : kErrors;
@@ -273,7 +305,11 @@ Run setup_compile(CLI::App& app) {
   app.add_option("--depfile", options->depfile, "Write the files that were read, for make and ninja")
       ->type_name("FILE");
   auto* compact = app.add_flag("--compact", options->compact, "For small microcontrollers: about a third of the tables and of the memory, more instructions");
-  app.add_flag("--fleet", options->fleet, "Also PREFIX.fleet.h and PREFIX.fleet.cc, for many robots at once")->excludes(compact);
+  auto* fleet = app.add_flag("--fleet", options->fleet, "Also PREFIX.fleet.h and PREFIX.fleet.cc, for many robots at once")->excludes(compact);
+  app.add_option("--profile", options->profile, "With --fleet: recorded facts of usual missions, CSV. The fleet decides the same, and is faster where robots do what was usual there")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->needs(fleet);
   app.add_flag("--map", options->map, "Also PREFIX.map.h, the roads that routes lead along, for the tasks of controllers");
   app.add_option("--emit", options->form, "What to write: C++, the program as JSON, or an image (.kbt) that a running robot can take")
       ->check(CLI::IsMember({"cpp", "json", "image"}))
