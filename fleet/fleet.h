@@ -174,6 +174,12 @@ class Fleet {
     std::vector<std::unique_ptr<Alone>> alone;
   };
 
+  /// A plane that is written where a fact is given, and whether it can rest.
+  struct Give {
+    PlaneRange range;
+    std::uint32_t rests;
+  };
+
   void give(std::uint32_t block, std::size_t word, Fact fact, std::uint64_t robots, float certainty);
   void begin_tick(Duration since_last);
   void note_queue(std::uint32_t queue);
@@ -219,6 +225,8 @@ class Fleet {
   FleetClock clock_;
   FleetMemory memory_;
   std::vector<std::uint32_t> stamp_bits_;   // by queue
+  std::vector<Give> gives_;                 // by fact
+  std::vector<std::uint32_t> gives_begin_{0};
   std::vector<float> weights_;              // by block, fact, robot
   std::vector<Block> blocks_;
   FleetTick now_;

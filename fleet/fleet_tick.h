@@ -37,11 +37,16 @@ Fleet<K>::Fleet(std::size_t robots, FleetOptions options)
       blocks_(memory_.blocks()), queues_(K::kShape.queues + 1) {
   for (std::size_t w = 0; w < kPlaneWords; ++w) last_robots_[w] = within((std::max<std::size_t>(blocks_.size(), 1) - 1) * kPlaneWords + w);
   const auto fill = [&](std::uint32_t block, std::uint32_t plane) { std::fill_n(&memory_.word(block, plane, 0), kPlaneWords, ~std::uint64_t{0}); };
+  for (std::uint32_t f = 0; f < K::kShape.facts; ++f) {
+    for (const PlaneRange& range : FactPlanes<K>::ranges(layout_.facts[f], f)) {
+      const bool rests = range.plane >= layout_.busy_given && range.plane < layout_.read_given;
+      if (memory_.has(range.plane)) gives_.push_back({range, std::uint32_t{rests && can_rest_}});
+    }
+    gives_begin_.push_back(static_cast<std::uint32_t>(gives_.size()));
+  }
   for (std::uint32_t b = 0; b < memory_.blocks(); ++b) {
-    for (std::uint32_t f = 0; f < K::kShape.facts; ++f) {
-      FactPlanes<K>::each(layout_.facts[f], FactPlanes<K>::bits(f, 0.0f), [&](std::uint32_t plane, bool bit) {
-        if (bit && memory_.has(plane)) fill(b, plane);
-      });
+    for (const Give& give : gives_) {
+      if (give.range.has(0.0f)) fill(b, give.range.plane);
     }
     for (std::uint32_t i = 0; i < K::kShape.satellites; ++i) {
       const FleetSatellite& at = layout_.satellites[i];
@@ -57,25 +62,28 @@ Fleet<K>::Fleet(std::size_t robots, FleetOptions options)
 template <class K>
 void Fleet<K>::give(std::uint32_t block, std::size_t word, Fact fact, std::uint64_t robots, float certainty) {
   const auto f = static_cast<std::uint32_t>(fact);
-  const FactBits bits = FactPlanes<K>::bits(f, certainty);
-  std::uint64_t changed = 0;
+  const SaneFact fact_now = sane_fact(certainty);
+  std::uint64_t changed = 0, woken = 0;
   Block& b = blocks_[block];
-  if (bits.bad && b.bad.empty()) b.bad.assign(std::size_t{K::kShape.facts} * kPlaneWords, 0);
   auto* const given = reinterpret_cast<std::uint64_t*>(memory_.given(block)) + word;
-  const std::uint32_t planes = memory_.stored_given(), bad = b.bad.empty() ? layout_.facts[f].bad : kNoPlane;
-  FactPlanes<K>::each(layout_.facts[f], bits, [&](std::uint32_t plane, bool bit) {
-    if (plane >= planes || plane == bad) return;
+  const auto put = [&](std::uint32_t plane, bool bit) {
     std::uint64_t& there = given[std::size_t{plane} * kPlaneWords];
-    const std::uint64_t now = bit ? there | robots : there & ~robots;
-    changed |= now ^ there;
-    there = now;
-    if (plane >= layout_.busy_given && plane < layout_.read_given && now != 0) b.resting = false;
-  });
+    const std::uint64_t change = (there ^ (std::uint64_t{0} - std::uint64_t{bit})) & robots;
+    changed |= change;
+    return there ^= change;
+  };
+  for (std::uint32_t i = gives_begin_[f]; i < gives_begin_[f + 1]; ++i) {
+    const Give& give = gives_[i];
+    woken |= put(give.range.plane, give.range.has(fact_now.value)) & (std::uint64_t{0} - give.rests);
+  }
+  if (fact_now.bad && b.bad.empty()) b.bad.assign(std::size_t{K::kShape.facts} * kPlaneWords, 0);
+  if (!b.bad.empty()) put(layout_.facts[f].bad, fact_now.bad);
   if (changed != 0) b.given = true;
+  if (woken != 0) b.resting = false;
   const std::uint32_t w = layout_.facts[f].weight;
   if (w == kNoPlane) return;
   float* const weights = &weights_[(std::size_t{block} * layout_.weights + w) * kBlockRobots + word * 64];
-  for (; robots != 0; robots &= robots - 1) weights[std::countr_zero(robots)] = sane_fact(certainty).value;
+  for (; robots != 0; robots &= robots - 1) weights[std::countr_zero(robots)] = fact_now.value;
   b.given = true;
 }
 

@@ -36,7 +36,7 @@ namespace mts {
 /// Number of this contract, which includes what fleet.h and kernel_code.h require of emitted files. Every change of the contract raises it.
 /// The number of the tables is kAbi.
 inline constexpr std::uint32_t kFleetAbi = 4;
-// check_abi: 4 5bf7d6bf858a
+// check_abi: 4 d12c507304f7
 
 inline constexpr std::uint32_t kBlockRobots = 512;
 inline constexpr std::uint32_t kPlaneBytes = kBlockRobots / 8;

@@ -2,8 +2,12 @@
 // other or blend a cell: that takes numbers that planes do not have.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "clock.h"
 #include "memory.h"
@@ -11,56 +15,57 @@
 
 namespace mts {
 
-/// A fact's certainty as planes see it.
-struct FactBits {
-  bool high = false, low = false, zero = false, plain = false, attended = false, bad = false;
+/// A plane that the host gives, and the certainties from `low` to `high` for which its bit is 1.
+struct PlaneRange {
+  std::uint32_t plane;
+  float low, high;
+  /// Without a branch, which a processor would guess wrong.
+  [[nodiscard]] bool has(float certainty) const { return static_cast<int>(certainty >= low) & static_cast<int>(certainty <= high); }
 };
 
 /// Facts of knowledge base `K` as planes.
 template <class K>
 struct FactPlanes {
-  /// The bits of a certainty as given by the host.
-  [[nodiscard]] static FactBits bits(std::uint32_t fact, float certainty) {
-    const SaneFact fact_now = sane_fact(certainty);
-    const float x = fact_now.value, firing = K::kTables.firing;
+  /// The planes that a fact may have, without that of bad facts; `plane` is kNoPlane for those that it has not.
+  [[nodiscard]] static std::array<PlaneRange, 5> ranges(const FleetFact& at, std::uint32_t fact) {
+    constexpr float kAll = std::numeric_limits<float>::infinity();
+    const float firing = K::kTables.firing, zero = zero_up_to(firing);
     const auto& limits = K::kTables.fact_atoms[fact];
-    return {x >= firing, x <= -firing, 1.0f - (x < 0.0f ? -x : x) >= firing, x > limits.plain, x > limits.attended, fact_now.bad};
-  }
-  /// Calls `f(plane, bit)` for each plane that the fact may have.
-  template <class F>
-  static void each(const FleetFact& at, const FactBits& bits, F&& f) {
-    f(at.high, bits.high);
-    f(at.low, bits.low);
-    f(at.zero, bits.zero);
-    f(at.plain, bits.plain);
-    f(at.attended, bits.attended);
-    f(at.bad, bits.bad);
+    return {{{at.high, firing, kAll}, {at.low, -kAll, -firing}, {at.zero, -zero, zero},
+             {at.plain, std::nextafter(limits.plain, kAll), kAll}, {at.attended, std::nextafter(limits.attended, kAll), kAll}}};
   }
   /// A certainty that the host may have given to the robot: exactly that one if it is kept, otherwise one that leads to the same decisions.
   [[nodiscard]] static float certainty(const FleetMemory& memory, FleetPlace place, const FleetFact& at, std::uint32_t fact,
                                        const float* weight) {
     const bool bad = memory.test(place, at.bad);
     if (weight != nullptr) return !bad ? *weight : *weight == 0.0f ? NAN : *weight * 2.0f;
-    const float firing = K::kTables.firing;
-    const auto& limits = K::kTables.fact_atoms[fact];
-    for (const float edge : {0.0f, 1.0f, -1.0f, firing, -firing, 1.0f - firing, firing - 1.0f, limits.plain, limits.attended}) {
-      for (const float way : {1.0f, -1.0f}) {
-        float x = edge;
-        for (int step = 0; step < kSteps; ++step, x = std::nextafter(x, way)) {
-          const float raw = !bad ? x : x == 0.0f ? NAN : x * 2.0f;
-          bool same = true;
-          each(at, bits(fact, raw), [&](std::uint32_t plane, bool bit) {
-            same = same && (!memory.has(plane) || memory.test(place, plane) == bit);
-          });
-          if (same) return raw;
-        }
+    const std::array<PlaneRange, 5> all = ranges(at, fact);
+    const auto may_be = [&](float x) {
+      return std::all_of(all.begin(), all.end(), [&](const PlaneRange& r) { return !memory.has(r.plane) || memory.test(place, r.plane) == r.has(x); });
+    };
+    if (bad) return may_be(0.0f) ? NAN : may_be(1.0f) ? 2.0f : -2.0f;   // what they count as
+    for (const float x : {0.0f, 1.0f, -1.0f}) {
+      if (may_be(x)) return x;
+    }
+    for (const PlaneRange& r : all) {
+      for (const float x : {r.low, r.high, std::nextafter(r.low, -2.0f), std::nextafter(r.high, 2.0f)}) {
+        if (x >= -1.0f && x <= 1.0f && may_be(x)) return x;
       }
     }
     return 0.0f;
   }
 
  private:
-  static constexpr int kSteps = 4;   ///< how many floats beside an edge are tried, since 1 - |x| rounds
+  /// The greatest x for which 1 - x, as floats round it, is `firing` or more. Such x form an interval, and floats from 0 on are ordered as
+  /// their bits.
+  static float zero_up_to(float firing) {
+    std::uint32_t yes = 0, no = std::bit_cast<std::uint32_t>(1.0f) + 1;
+    while (no - yes > 1) {
+      const std::uint32_t middle = yes + (no - yes) / 2;
+      (1.0f - std::bit_cast<float>(middle) >= firing ? yes : no) = middle;
+    }
+    return std::bit_cast<float>(yes);
+  }
 };
 
 /// Carries robots between a fleet's planes and the engine's state.
