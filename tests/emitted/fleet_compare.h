@@ -7,6 +7,7 @@
 #include <waymark/fleet/fleet.h>
 #include "compiler/program/interpret.h"
 #include "compiler/program/net_effects.h"
+#include "tests/emitted/usual_facts.h"
 #include "tests/unit/program/random_program.h"
 
 namespace kb::emitted {
@@ -38,8 +39,8 @@ program::Tick record_of(const program::Program& p, const mts::RobotTick<K>& robo
 }
 
 /// Two fleets of some blocks: a traced one whose every tick is compared, and one of another width that must run the same
-/// strategies. Twenty of their robots have an interpreter; facts are given to robots and to words of robots. On a calm day nobody sees
-/// anything most of the time, so that blocks rest in between.
+/// strategies. Twenty of their robots have an interpreter; facts are given to robots and to words of robots. On calm days robots are mostly
+/// told what is usual, so that blocks rest in between.
 template <class K>
 class FleetTrial {
  public:
@@ -59,33 +60,34 @@ class FleetTrial {
   bool agrees() {
     for (std::size_t tick = 0; tick < (calm_ ? kCalmDays : 1) * kTicks; ++tick) {
       if (calm_ && tick % kTicks == 0) forget();
-      const bool calm = calm_ && tick % kTicks < kCalm;
-      if (!calm) tell(tick);
-      const std::uint32_t dt_us = calm ? kCalmTick_us : traces_[0][tick % kTicks].dt_us;
+      tell(tick, calm_ && tick % kTicks < kCalm);
+      const std::uint32_t dt_us = traces_[0][tick % kTicks].dt_us;
+      const std::size_t resting = plain_.resting();
       traced_.tick(mts::microseconds(dt_us));
       plain_.tick(mts::microseconds(dt_us), crew_);
       for (std::size_t i = 0; i < kWatched; ++i) {
         if (!same(i, tick, oracles_[i].tick(given_[i], dt_us))) return false;
       }
-      const std::size_t resting = plain_.resting();
-      woke_ = woke_ || resting < resting_;
-      resting_ = resting;
+      rested_ += plain_.resting() > plain_.passed_over() ? 1u : 0u;
+      woke_ += plain_.resting() < resting ? 1u : 0u;
     }
     return true;
   }
-  /// Whether a block rested, and no longer does.
-  [[nodiscard]] bool woke() const { return woke_; }
+  /// On how many ticks a block was ticked and went on resting, at least; and on how many the kernel found that one no longer rests.
+  [[nodiscard]] std::size_t rested() const { return rested_; }
+  [[nodiscard]] std::size_t woke() const { return woke_; }
 
  private:
-  static constexpr std::size_t kTicks = 50, kCalm = 40, kCalmDays = 4;
-  static constexpr std::uint32_t kCalmTick_us = 100'000;
+  static constexpr std::size_t kTicks = 50, kCalm = 44, kCalmDays = 6;
   static constexpr std::uint32_t kNumberedAnew = 0xC000'0000u;   // the stamp at which a fleet's clock does that, here in the middle of the trial
 
-  void tell(std::size_t tick) {
+  void tell(std::size_t tick, bool calm) {
     for (std::size_t i = 0; i < kWatched; ++i) {
-      for (std::uint32_t f = 0; f < program_.facts; ++f) give(i, f, traces_[i][tick % kTicks].facts[f]);
+      for (std::uint32_t f = 0; f < program_.facts; ++f) {
+        if (!calm || is_usual(f)) give(i, f, traces_[i][tick % kTicks].facts[f]);
+      }
     }
-    if (tick % 3 == 1) give_word(tick);
+    if (tick % 3 == 1 && (!calm || is_usual(static_cast<std::uint32_t>(tick) % program_.facts))) give_word(tick);
   }
   void forget() {
     for (std::uint32_t f = 0; f < program_.facts; ++f) {
@@ -143,8 +145,8 @@ class FleetTrial {
   static bool got_strategy(const program::Tick& tick) { return tick.strategy != program::CellId::kNone; }
 
   std::uint64_t seed_;
-  bool calm_, woke_ = false;
-  std::size_t resting_ = 0;
+  bool calm_;
+  std::size_t rested_ = 0, woke_ = 0;
   program::Program program_;
   mts::Fleet<K> traced_, plain_;
   mts::Crew crew_{2};
@@ -154,14 +156,14 @@ class FleetTrial {
   std::vector<std::vector<float>> given_;
 };
 
-/// `rest`: blocks must rest on a calm day, and wake again.
+/// `rest`: blocks must rest on calm days, and wake again.
 template <class K>
 bool fleet_agrees(std::uint64_t seed, bool rest) {
   for (const std::uint32_t bits : {512u, 64u}) {
     FleetTrial<K> calm(seed, bits, true);
     if (!FleetTrial<K>(seed, bits).agrees() || !calm.agrees()) return false;
-    if (calm.woke() || !rest) continue;
-    std::printf("seed %llu: no block rested and woke\n", static_cast<unsigned long long>(seed));
+    if (!rest || (calm.rested() > 20 && calm.woke() > 0)) continue;
+    std::printf("seed %llu: blocks rested on %zu ticks and woke on %zu\n", static_cast<unsigned long long>(seed), calm.rested(), calm.woke());
     return false;
   }
   return true;

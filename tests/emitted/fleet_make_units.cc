@@ -6,14 +6,20 @@
 
 #include "compiler/emit/emit.h"
 #include "compiler/tables/fleet_rest.h"
+#include "tests/emitted/usual_facts.h"
 #include "tests/unit/program/random_program.h"
 
-/// Most of the planes that stay as they are in a robot that never sees anything: some are left out, so that resting kernels have planes
-/// of every kind on both sides.
+/// Most of the planes that stay as they are in robots that are told every second fact only: some are left out, so that resting kernels have
+/// planes of every kind on both sides.
 kb::tables::FleetRest some_at_rest(const kb::program::Program& program, const kb::tables::Tables& tables, unsigned long seed) {
-  constexpr std::size_t kTicks = 40;
-  kb::tables::FleetMission nothing{std::vector<std::uint32_t>(kTicks, 100'000), std::vector<float>(kTicks * program.facts, 0.0f)};
-  kb::tables::FleetRest rest = kb::tables::planes_at_rest(kb::tables::build_fleet(program, tables), tables, {&nothing, 1});
+  std::vector<kb::tables::FleetMission> missions(2);
+  for (std::size_t i = 0; i < missions.size(); ++i) {
+    for (const kb::program::testing::Step& step : kb::program::testing::random_trace(program, seed + 100'000 * i, 60)) {
+      missions[i].dt_us.push_back(step.dt_us);
+      for (std::uint32_t f = 0; f < program.facts; ++f) missions[i].facts.push_back(kb::emitted::is_usual(f) ? step.facts[f] : 0.0f);
+    }
+  }
+  kb::tables::FleetRest rest = kb::tables::planes_at_rest(kb::tables::build_fleet(program, tables), tables, missions);
   std::erase_if(rest, [seed](const auto& plane) {
     const auto& [kind, of, bit] = plane.first;
     return (static_cast<unsigned long>(kind) * 5 + of * 7 + seed) % 4 == 0;   // all bits of a satellite together

@@ -17,9 +17,9 @@ void tick(Fleet& fleet, int ticks) {
 Fleet going(std::size_t robots, mts::FleetOptions options) {
   Fleet fleet(robots, options);
   tick(fleet, 1);
-  for (std::size_t word = 0; word < fleet.words(); ++word) fleet.set_word(word, Fact::Button, ~std::uint64_t{0}, 0.9f);
+  for (std::size_t robot = 0; robot < robots; ++robot) fleet.set(robot, Fact::Button, 0.9f);
   tick(fleet, 1);
-  for (std::size_t word = 0; word < fleet.words(); ++word) fleet.set_word(word, Fact::Button, ~std::uint64_t{0}, 0.0f);
+  for (std::size_t robot = 0; robot < robots; ++robot) fleet.set(robot, Fact::Button, 0.0f);
   tick(fleet, 20);
   return fleet;
 }
@@ -49,6 +49,34 @@ TEST(FleetRest, ABlockRestsUntilARobotDoesWhatTheProfileDoesNotShow) {
     tick(fleet, 16);
     EXPECT_EQ(fleet.resting(), 2u);
   }
+}
+
+TEST(FleetRest, RobotsThatAFleetHasNotKeepNoBlockBusy) {
+  Fleet fleet = going(1'000, {});
+  fleet.set(600, Fact::Button, 0.9f);
+  tick(fleet, 1);
+  EXPECT_EQ(fleet.passed_over(), 1u);
+  tick(fleet, 3);
+  EXPECT_EQ(fleet.passed_over(), 2u);
+  EXPECT_EQ(fleet.resting(), 2u);
+}
+
+TEST(FleetRest, ABlockDoesNotRestWhereAFactIsGivenAlthoughNothingFollowsYet) {
+  Fleet fleet = going(1'000, {});
+  fleet.set(5, Fact::Dust, 0.6f);   // enough for attention, and not for an event
+  for (int i = 0; i < 40; ++i) {
+    fleet.set(7, Fact::Button, i % 2 == 0 ? 0.9f : 0.0f);
+    tick(fleet, 1);
+    EXPECT_EQ(fleet.resting(), 1u);
+  }
+}
+
+TEST(FleetRest, ABlockDoesNotRestWhereARobotIsAlone) {
+  Fleet fleet = going(1'000, {});
+  fleet.set(5, Fact::Noise, 0.8f);   // as in the profile: rules contradict each other
+  tick(fleet, 1);
+  EXPECT_EQ(fleet.alone(), 1u);
+  EXPECT_EQ(fleet.resting(), 1u);
 }
 
 TEST(FleetRest, TracedFleetsNeverRest) {
