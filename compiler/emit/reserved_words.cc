@@ -53,8 +53,13 @@ bool any_of(std::string_view words, Test&& test) {
   return false;
 }
 
+// Without looking at each word: every name of a program is asked for.
 bool is_one_of(std::string_view words, std::string_view name) {
-  return any_of(words, [name](std::string_view word) { return word == name; });
+  if (name.empty()) return false;
+  for (std::size_t at = words.find(name); at != std::string_view::npos; at = words.find(name, at + 1)) {
+    if (words[at - 1] == ' ' && words[at + name.size()] == ' ') return true;
+  }
+  return false;
 }
 
 bool begins_as_one_of(std::string_view words, std::string_view name) {

@@ -33,17 +33,16 @@ void append_key(std::string& out, std::string_view key) {
 
 void append_json(std::string& out, std::string_view text) {
   out += '"';
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (byte < 0x20) {
-      fmt::format_to(std::back_inserter(out), "\\u{:04x}", byte);
-    } else {
-      out += c;
-    }
+  std::size_t written = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if (byte >= 0x20 && byte != '"' && byte != '\\') continue;
+    out.append(text, written, i - written);
+    written = i + 1;
+    if (byte < 0x20) fmt::format_to(std::back_inserter(out), "\\u{:04x}", byte);
+    else (out += '\\') += text[i];
   }
+  out.append(text, written);
   out += '"';
 }
 
