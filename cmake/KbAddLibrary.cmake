@@ -55,8 +55,9 @@ endmacro()
 # (or "NAME.kb/FILE.kb.h", where it has several of one name) and uses as `ns::Mind`; ns may be a::b, and is by default the stem of
 # FILE. No two of one program have the same. The library is made again when FILE.kb or any file
 # that it imports has changed, also indirectly. FLEET adds FILE.kb.fleet.h and FILE.kb.fleet.cc, for many robots at once
-# (docs/fleets.md), and PROFILE names facts that its robots usually have, CSV, for which it becomes faster; MAP adds FILE.kb.map.h, the roads of its routes for Waymark::controllers (docs/controllers.md). LIBRARY is another
-# folder for `std.*`; OPTIONS go to `kbc compile` as they are, as in OPTIONS -Werror. Whoever links NAME into a shared library sets
+# (docs/fleets.md), and PROFILE names recordings of usual missions, CSV, for which it becomes faster; MAP adds FILE.kb.map.h, the roads
+# of its routes for Waymark::controllers (docs/controllers.md). LIBRARY is another folder for `std.*`; OPTIONS go to `kbc compile` as
+# they are, as in OPTIONS -Werror. Whoever links NAME into a shared library sets
 # POSITION_INDEPENDENT_CODE on it.
 #
 # Works in Waymark's own tree, in a project that has it as a subdirectory, and in one that has called find_package(Waymark).

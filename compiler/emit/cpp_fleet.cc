@@ -60,7 +60,10 @@ class LayoutPrinter {
     line("enum class Plane : std::uint32_t {{");
     for (std::size_t i = 0; i < in_.form.planes.size(); ++i) {
       if (i == 0 && in_.form.given != 0) line("  // What the host gives.");
+      if (i == in_.form.busy_given && i != in_.form.read_given) line("  // The same, at rest in the profile.");
+      if (i == in_.form.read_given && i != in_.form.busy_given) line("  // The same, not read by the kernel.");
       if (i == in_.form.given) line("  // What the kernel makes.");
+      if (i == in_.form.busy_planes && i != in_.form.plain_planes) line("  // The same, at rest in the profile.");
       if ((i == in_.form.plain_given && i != in_.form.given) || i == in_.form.plain_planes) line("  // The same, of traced fleets only.");
       const std::string& text = in_.names.texts[i];
       line("  {},{}", in_.names.planes[i], text == in_.names.planes[i] ? "" : "  // " + text);
@@ -150,7 +153,6 @@ class LayoutPrinter {
   }
 
   void tables() {
-    const bool rest = !in_.form.resting.empty();
     std::string bits;
     for (const bool bit : in_.form.rest) bits += bit ? "1, " : "0, ";
     line("constexpr std::uint8_t kRest[] = {{{}0}};\n", bits);
@@ -158,7 +160,7 @@ class LayoutPrinter {
     line("    .read_given = {},\n    .plain_given = {},\n    .given = {},", in_.form.read_given, in_.form.plain_given, in_.form.given);
     line("    .planes = {},\n    .traced_planes = {},", in_.form.plain_planes, in_.form.planes.size());
     line("    .several = {},\n    .weights = {},", plane(PlaneKind::kSeveral, 0), weights_);
-    line("    .busy_given = {},\n    .busy_planes = {},\n    .rest = kRest,", rest ? in_.form.busy_given : in_.form.read_given, rest ? in_.form.busy_planes : in_.form.plain_planes);
+    line("    .busy_given = {},\n    .busy_planes = {},\n    .rest = kRest,", in_.form.busy_given, in_.form.busy_planes);
     line("    .parts = kParts,");
     line("    .facts = kFacts,\n    .satellites = kSatellites,\n    .strategies = kStrategies,\n    .rules = kRules,");
     line("    .timers = kTimers,\n    .values = kValues,");

@@ -347,7 +347,7 @@ class FleetBuilder {
   const program::Program& p_;
   const Tables& t_;
   const DerivedPlanes& derived_;
-  const FleetRest rest_;
+  const FleetRest rest_;   // for `truth_`
   FleetTruth truth_;
   FleetRules& rules_;
   FleetLogic& logic_;

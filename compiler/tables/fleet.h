@@ -69,7 +69,7 @@ struct FleetForm {
   std::uint32_t plain_planes = 0;     ///< how many planes come before those that the kernel of traced fleets makes
   std::vector<FleetCode> satellites;
   std::vector<FleetStep> steps;       ///< the tick
-  std::uint32_t busy_given = 0, busy_planes = 0;   ///< from here to `read_given` and to `plain_planes` are planes that can rest
+  std::uint32_t busy_given = 0, busy_planes = 0;   ///< the planes from here to `read_given` and to `plain_planes` can rest
   std::vector<bool> rest;             ///< by plane from `busy_planes` on: its bit at rest. The host's are 0 at rest
   std::vector<FleetStep> resting;     ///< the tick where all of these rest; empty if there are none
   std::vector<FleetPart> parts;       ///< ascending: of planes and of parts before

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <waymark/runtime/facts.h>
+
 namespace kb::tables {
 namespace {
 
@@ -12,7 +14,8 @@ using PlaneKind = FleetPlane::Kind;
 class OneRobot {
  public:
   OneRobot(const FleetForm& form, const Tables& tables)
-      : form_(form), t_(tables), planes_(form.planes.size(), false), before_(planes_), values_(form.steps.size(), false), began_us_(tables.shape.timers + std::size_t{1}, 0) {
+      : form_(form), t_(tables), planes_(form.planes.size(), false), before_(planes_), values_(form.steps.size(), false),
+        began_us_(tables.shape.timers + std::size_t{1}, 0) {
     for (std::uint32_t s = 0; s < form.satellites.size(); ++s) start(s);
   }
 
@@ -35,14 +38,14 @@ class OneRobot {
   }
 
   [[nodiscard]] bool given(const FleetPlane& plane, float certainty) const {
-    const float x = std::isnan(certainty) ? 0.0f : std::fmin(std::fmax(certainty, -1.0f), 1.0f);
+    const auto [x, bad] = mts::sane_fact(certainty);
     switch (plane.kind) {
       case PlaneKind::kHigh: return x >= t_.firing;
       case PlaneKind::kLow: return x <= -t_.firing;
       case PlaneKind::kZero: return 1.0f - std::fabs(x) >= t_.firing;
       case PlaneKind::kPlain: return x > t_.fact_atoms[plane.of].plain;
       case PlaneKind::kAttended: return x > t_.fact_atoms[plane.of].attended;
-      default: return x != certainty;
+      default: return bad;
     }
   }
 
