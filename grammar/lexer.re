@@ -50,15 +50,16 @@ bool is_include(std::string_view comment) {
   re2c:tags = 0;
 
   blank = [ \t\n] | "\r\n";
-  letter = L | Nl | "_";
-  follow = letter | Mn | Mc | Nd | Pc;
+  // Not shown, although some are letters or marks: two names must not differ in these alone.
+  no_width = [\u00ad\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b-\u200f\u2060-\u2064\u3164\ufe00-\ufe0f\ufeff\uffa0\U000e0100-\U000e01ef];
+  letter = (L | Nl | "_") \ no_width;
+  follow = (letter | Mn | Mc | Nd | Pc) \ no_width;
   digits = [0-9]+;
   number = digits ("." digits)? ([eE] [+\-]? digits)?;
   scalar = [\x80-\ud7ff\ue000-\U0010ffff];
   control = [\x01-\x08\x0b-\x1f\x7f-\x9f];
   direction = [\u202a-\u202e\u2066-\u2069];
   foreign_space = [\u00a0\u1680\u2000-\u200a\u2028\u2029\u202f\u205f\u3000];
-  no_width = [\u00ad\u200b-\u200f\u2060\ufeff];
   foreign_quote = ['\u2018-\u201f\u00ab\u00bb];
   plain = ([\t\x20-\x21\x23-\x7e] | scalar) \ control \ direction;
 */

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "compiler/source/encoding.h"
+#include "compiler/source/utf8.h"
 #include "compiler/syntax/scan.h"
 #include "compiler/syntax/syntax.h"
 
@@ -25,10 +26,14 @@ bool is_name(std::string_view text) {
 
 std::string worded(std::string_view text) {
   constexpr std::size_t kLongest = 200;
-  const auto foreign = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
-  std::string name(text.substr(0, kLongest));
-  std::replace_if(name.begin(), name.end(), [&](char c) { return !source::is_letter_or_digit(c) && !foreign(c); }, '_');
-  if (std::any_of(name.begin(), name.end(), foreign) && !is_name("a" + name)) std::replace_if(name.begin(), name.end(), foreign, '_');
+  std::string name;
+  for (std::string_view left = text.substr(0, kLongest); !left.empty();) {
+    const std::size_t bytes = std::max<std::size_t>(source::code_point(left).bytes, 1);
+    const std::string_view character = left.substr(0, bytes);
+    const bool belongs = bytes == 1 ? source::is_letter_or_digit(character[0]) : is_name("a" + std::string(character));
+    name += belongs ? character : "_";
+    left.remove_prefix(bytes);
+  }
   return name;
 }
 

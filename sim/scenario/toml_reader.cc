@@ -8,6 +8,7 @@
 #include "compiler/diagnostics/display.h"
 #include "compiler/source/encoding.h"
 #include "compiler/source/numbers.h"
+#include "compiler/source/utf8.h"
 #include "sim/scenario/toml_keys.h"
 #include "sim/scenario/toml_mistakes.h"
 
@@ -48,6 +49,11 @@ std::optional<toml::table> parse_toml(source::FileId file, const TomlPlaces& pla
   }
   if (const std::string_view other = source::other_format(bytes); !other.empty()) {
     diagnostics.report(Kind::kNotText, source::Span{file, 0, 2}, {other});
+    return std::nullopt;
+  }
+  if (const std::size_t bad = source::find_ill_formed(bytes); bad < bytes.size()) {
+    const auto point = static_cast<std::uint32_t>(bad);
+    diagnostics.report(Kind::kBytesNotUtf8, source::Span{file, point, point + 1}, {fmt::format("0x{:02X}", static_cast<unsigned char>(bytes[bad]))});
     return std::nullopt;
   }
   if (at < bytes.size()) {

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "compiler/emit/names.h"
+#include "compiler/syntax/syntax.h"
 #include "tools/kbc/support.h"
 
 namespace kb::cli {
@@ -88,7 +89,8 @@ bool is_of_the_c_library(std::string_view name) {
 
 bool is_one_namespace(std::string_view name) {
   const bool taken = name == "kb" || name == "mts" || name == "std";
-  return !name.empty() && !taken && (name[0] < '0' || name[0] > '9') && emit::identifier(name) == name;
+  const bool foreign = std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+  return !name.empty() && !taken && (name[0] < '0' || name[0] > '9') && emit::identifier(name) == name && (!foreign || syntax::is_name(name));
 }
 
 }  // namespace
