@@ -86,7 +86,7 @@ FleetRest planes_at_rest(const FleetForm& form, const Tables& tables, std::span<
     OneRobot robot(form, tables);
     const std::size_t ticks = mission.dt_us.size();
     for (std::size_t tick = 0; tick < 2 * ticks; ++tick) {
-      robot.tick(mission.dt_us[tick % ticks], &mission.facts[tick % ticks * tables.shape.facts]);
+      robot.tick(mission.dt_us[tick % ticks], mission.facts.data() + tick % ticks * tables.shape.facts);
       if (tick < ticks) continue;
       if (bits.empty()) bits = robot.planes();
       for (std::size_t i = 0; i < rests.size(); ++i) rests[i] = rests[i] && robot.planes()[i] == bits[i];
