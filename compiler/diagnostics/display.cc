@@ -43,6 +43,8 @@ bool in(const std::array<Range, N>& ranges, char32_t c) {
   return std::any_of(ranges.begin(), ranges.end(), [c](Range r) { return c >= r.first && c <= r.last; });
 }
 
+std::size_t columns_of(char32_t c) { return c < 0x80 ? 1 : in(kZeroWide, c) ? 0 : in(kWide, c) ? 2 : 1; }
+
 // A place about `kBefore` columns before `begin`, not within a character.
 std::size_t start_of(std::string_view line, std::size_t begin) {
   if (line.size() <= kWidest || begin <= kBefore) return 0;
@@ -74,11 +76,20 @@ Glyph glyph(std::string_view text, std::size_t at, std::size_t column) {
     const std::size_t width = shown.size();
     return {c.bytes, std::move(shown), width};
   }
-  const std::size_t width = in(kZeroWide, c.value) ? 0 : in(kWide, c.value) ? 2 : 1;
-  return {c.bytes, std::string(text.substr(at, c.bytes)), width};
+  return {c.bytes, std::string(text.substr(at, c.bytes)), columns_of(c.value)};
 }
 
 }  // namespace
+
+std::size_t columns(std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const source::CodePoint c = source::code_point(text.substr(at));
+    count += columns_of(c.value);
+    at += std::max<std::size_t>(1, c.bytes);
+  }
+  return count;
+}
 
 std::string between_backticks(std::string_view text) {
   if (text.empty()) return "\"\"";

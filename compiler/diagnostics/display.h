@@ -10,6 +10,9 @@
 
 namespace kb::diagnostics {
 
+/// How many columns of a terminal `text` takes: wide characters have two, combining marks none, and a tab counts for one. O(bytes).
+[[nodiscard]] std::size_t columns(std::string_view text);
+
 /// `text` with everything spelled out that a terminal would obey: control characters, marks of direction, broken UTF-8.
 [[nodiscard]] std::string visible(std::string_view text);
 

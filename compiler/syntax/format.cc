@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/consumers.h"
+#include "compiler/diagnostics/display.h"
 #include "compiler/source/encoding.h"
 #include "compiler/syntax/format_lines.h"
 #include "compiler/syntax/scan.h"
@@ -131,7 +132,7 @@ std::uint32_t Formatter::column(const Token& token) {
   const std::string_view passed = sources_.bytes(token.span.file).substr(counted_to_, token.span.begin - counted_to_);
   const std::size_t line_break = passed.rfind('\n');
   if (line_break != std::string_view::npos) column_ = 0;
-  column_ += static_cast<std::uint32_t>(source::code_points(passed.substr(line_break + 1)));
+  column_ += static_cast<std::uint32_t>(diagnostics::columns(passed.substr(line_break + 1)));
   counted_to_ = token.span.begin;
   return column_;
 }
@@ -260,9 +261,9 @@ bool Formatter::table_on_one_line() const {
 
 /// Whether it was written so, and fits. Columns do not count, so that formatting twice gives the same.
 bool Formatter::rule_on_one_line() const {
-  std::size_t end = at_ + 1, width = source::code_points(sources_.text(token().span));
+  std::size_t end = at_ + 1, width = diagnostics::columns(sources_.text(token().span));
   for (; tokens_[end].kind != T::kEnd && !tokens_[end].begins_statement; ++end) {
-    width += source::code_points(sources_.text(tokens_[end].span)) + (is_apart(tokens_[end - 1].kind, tokens_[end].kind) ? 1 : 0);
+    width += diagnostics::columns(sources_.text(tokens_[end].span)) + (is_apart(tokens_[end - 1].kind, tokens_[end].kind) ? 1 : 0);
   }
   return width <= kWidestRule && !breaks_between(token().span.begin, tokens_[end - 1].span.begin);
 }

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <span>
 
-#include "compiler/source/encoding.h"
+#include "compiler/diagnostics/display.h"
 #include "compiler/syntax/format_lines.h"
 
 namespace kb::syntax {
@@ -25,7 +25,7 @@ struct LaidOut {
     if (column > width) text.append(column - width, ' ');
     const Cell& placed = line->cells[next++];
     text += placed.text;
-    width = std::max(column, width) + static_cast<std::uint32_t>(source::code_points(placed.text));
+    width = std::max(column, width) + static_cast<std::uint32_t>(diagnostics::columns(placed.text));
   }
 };
 

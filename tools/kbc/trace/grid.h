@@ -6,21 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "compiler/source/encoding.h"
+#include "compiler/diagnostics/display.h"
 
 namespace kb::trace {
 
-/// Lines of text, built column by column, so that each column is as wide as its widest entry. Characters count and not bytes, because names may be
-/// in any script.
+/// Lines of text, built column by column, so that each column is as wide as its widest entry on a terminal.
 class Grid {
  public:
   explicit Grid(std::size_t lines) : lines_(lines) {}
   /// An entry for each line.
   void add_column(const std::vector<std::string>& entries, bool left) {
     std::size_t widest = 0;
-    for (const std::string& entry : entries) widest = std::max(widest, source::code_points(entry));
+    for (const std::string& entry : entries) widest = std::max(widest, diagnostics::columns(entry));
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const std::string gap(widest - source::code_points(entries[i]), ' ');
+      const std::string gap(widest - diagnostics::columns(entries[i]), ' ');
       lines_[i] += (lines_[i].empty() ? "" : "  ") + (left ? entries[i] + gap : gap + entries[i]);
     }
   }
