@@ -13,7 +13,7 @@ namespace kb::cli {
 /// Why this cannot be a name in results; empty if it can.
 [[nodiscard]] std::string_view refused_name(std::string_view name);
 
-/// The name with each character replaced by `_` that has a meaning in CSV or Markdown.
-[[nodiscard]] std::string plain_name(std::string name);
+/// The name with `_` for each character that is no letter, digit, `_`, `-` or `.`: it may have a meaning in CSV or Markdown, or not be shown.
+[[nodiscard]] std::string plain_name(std::string_view name);
 
 }  // namespace kb::cli

@@ -26,9 +26,9 @@ TEST(RowNames, AreGivenBehindTheLastEqualsSignUnlessAFileHasIt) {
 }
 
 TEST(RowNames, CannotBeTakenForAMissingValueOrForTwoFields) {
-  for (const char* good : {"a", "night-2", "v1.2_b", "NAN", "Na", "none", "7"}) EXPECT_EQ(refused_name(good), "") << good;
-  for (const char* bad : {"", "a,b", "a b", "\"a", "a|b", "NA", "nan", "NaN", "-nan", "None", "NULL", "null", "\xc3\xa4"}) EXPECT_NE(refused_name(bad), "") << bad;
-  EXPECT_EQ(plain_name("two words|\xc3\xa4.b"), "two_words___.b");
+  for (const char* good : {"a", "night-2", "v1.2_b", "NAN", "Na", "none", "7", "\xc3\xa4", "\xe5\xa3\x81-2"}) EXPECT_EQ(refused_name(good), "") << good;
+  for (const char* bad : {"", "a,b", "a b", "\"a", "a|b", "NA", "nan", "NaN", "-nan", "None", "NULL", "null", "\xc3", "a\xe2\x80\x8b"}) EXPECT_NE(refused_name(bad), "") << bad;
+  EXPECT_EQ(plain_name("two words|\xc3\xa4\xe2\x80\x8b.b\xff"), "two_words_\xc3\xa4_.b_");
 }
 
 }  // namespace
